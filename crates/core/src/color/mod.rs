@@ -1,0 +1,7 @@
+//! Light and colour.
+
+mod rgb;
+mod spectrum;
+
+pub use rgb::{Rgb, srgb_decode, srgb_encode};
+pub use spectrum::Spectrum;

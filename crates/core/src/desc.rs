@@ -1,0 +1,134 @@
+//! What a file or a program said: plain data, names instead of indices.
+//!
+//! A reader promises: lengths in metres, +Y up, right-handed; colours linear Rec. 709; radiance in W / (m² sr); angles in
+//! degrees where the name of the field says so here. It does not promise that the numbers make sense or that names
+//! exist: [`SceneDesc::check`] tells what does not, and [`Scene::build`](crate::scene::Scene::build) refuses it.
+
+use std::collections::BTreeMap;
+
+use schemars::JsonSchema;
+use serde::{Deserialize, Serialize};
+
+use crate::camera::CameraDesc;
+use crate::integrator::IntegratorKind;
+use crate::light::EnvironmentDesc;
+use crate::material::MaterialDesc;
+use crate::shape::ShapesDesc;
+use crate::validate::{Checker, Problem};
+
+/// A scene and how to render it. Everything has a default.
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields, default)]
+pub struct SceneDesc {
+    /// Scene files, beside this one or below, that are read first; what this file says wins, and shapes add up.
+    #[serde(skip_serializing)]
+    pub include: Vec<String>,
+    /// Size and quality of the picture.
+    pub render: RenderDesc,
+    /// The eye.
+    pub camera: CameraDesc,
+    /// Light from outside.
+    pub environment: EnvironmentDesc,
+    /// Materials by name.
+    pub material: BTreeMap<String, MaterialDesc>,
+    /// Everything that can be seen.
+    pub shape: ShapesDesc,
+}
+
+/// Size and quality of the picture.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields, default)]
+pub struct RenderDesc {
+    /// Pixels in a row.
+    #[schemars(range(min = 1))]
+    pub width: u32,
+    /// Rows of pixels.
+    #[schemars(range(min = 1))]
+    pub height: u32,
+    /// Samples per pixel.
+    #[schemars(range(min = 1))]
+    pub spp: u32,
+    /// The most edges of a path: 1 draws only what shines, 2 what it lights, and so on; 0 is black.
+    pub max_depth: u32,
+    /// Another seed is another picture with other noise.
+    pub seed: u64,
+    /// How light is traced.
+    pub integrator: IntegratorKind,
+}
+
+impl Default for RenderDesc {
+    fn default() -> Self {
+        Self { width: 800, height: 450, spp: 128, max_depth: 50, seed: 0, integrator: IntegratorKind::default() }
+    }
+}
+
+impl RenderDesc {
+    /// The most pixels along a side.
+    pub const MAX_SIDE: u32 = 1 << 24;
+    /// The most samples per pixel: so many squares fit into the film's sums.
+    pub const MAX_SPP: u32 = 1 << 24;
+    /// The most edges of a path.
+    pub const MAX_DEPTH: u32 = 1_000_000;
+
+    fn check(&self, c: &mut Checker) {
+        c.count("width", self.width, Self::MAX_SIDE);
+        c.count("height", self.height, Self::MAX_SIDE);
+        c.count("spp", self.spp, Self::MAX_SPP);
+        if self.max_depth > Self::MAX_DEPTH {
+            let hint = format!("use a whole number from 0 to {}", Self::MAX_DEPTH);
+            c.problem(
+                "max_depth",
+                format!("`max_depth` must be at most {}, not {}", Self::MAX_DEPTH, self.max_depth),
+                Some(hint),
+            );
+        }
+    }
+}
+
+impl SceneDesc {
+    /// The material of shapes that name none. A scene may define it.
+    pub const DEFAULT_MATERIAL: &str = "default";
+
+    /// Everything that is wrong; a scene can be built if nothing is.
+    pub fn check(&self) -> Vec<Problem> {
+        let mut c = Checker::default();
+        c.within("render", |c| self.render.check(c));
+        c.within("camera", |c| self.camera.check(c));
+        c.within("environment", |c| self.environment.check(c));
+        c.within("material", |c| {
+            for (name, material) in &self.material {
+                c.within(name, |c| material.check(c));
+            }
+        });
+        c.within("shape", |c| self.shape.check(c));
+        c.within("shape", |c| self.check_material_names(c));
+        c.into_problems()
+    }
+
+    fn check_material_names(&self, c: &mut Checker) {
+        let spheres = self.shape.sphere.iter().map(|s| &s.material).enumerate().map(|s| ("sphere", s));
+        let quads = self.shape.quad.iter().map(|q| &q.material).enumerate().map(|q| ("quad", q));
+        let meshes = self.shape.mesh.iter().map(|m| &m.material).enumerate().map(|m| ("mesh", m));
+        for (kind, (index, name)) in spheres.chain(quads).chain(meshes) {
+            let Some(name) = name.as_deref().filter(|name| !self.is_material(name)) else {
+                continue;
+            };
+            let mut hint = "the scene has no materials; add one as [material.NAME.KIND]".to_owned();
+            if !self.material.is_empty() {
+                let names: Vec<_> = self.material.keys().take(12).map(|n| format!("`{n}`")).collect();
+                hint = format!(
+                    "materials are {}{}",
+                    names.join(", "),
+                    if self.material.len() > 12 { ", ..." } else { "" }
+                );
+            }
+            c.within(kind, |c| {
+                c.within(index, |c| c.problem("material", format!("there is no material `{name}`"), Some(hint)))
+            });
+        }
+    }
+
+    fn is_material(&self, name: &str) -> bool {
+        name == Self::DEFAULT_MATERIAL || self.material.contains_key(name)
+    }
+}

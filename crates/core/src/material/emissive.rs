@@ -1,0 +1,65 @@
+//! Emissive: a surface that sends out light.
+//!
+//! Radiance is the same in all directions. As with the area lights of pbrt and Mitsuba, only the side that the normal
+//! points to shines, unless `two_sided`; a lamp may also reflect, as a lambertian does, on both sides.
+//!
+//! ```toml
+//! [material.lamp.emissive]
+//! radiance = [17, 13.5, 9]
+//! ```
+
+use glam::Vec3;
+use schemars::JsonSchema;
+use serde::{Deserialize, Serialize};
+
+use crate::color::{Rgb, Spectrum};
+use crate::material::LambertianBsdf;
+use crate::validate::Checker;
+
+/// A lamp: the side of the normal shines.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields, default)]
+pub struct Emissive {
+    /// Emitted radiance, W / (m² sr), not negative.
+    pub radiance: Rgb,
+    /// Share of arriving light that is scattered back, as by a lambertian surface, 0..1.
+    pub albedo: Rgb,
+    /// Whether the side that the normal points away from shines too.
+    pub two_sided: bool,
+}
+
+impl Default for Emissive {
+    fn default() -> Self {
+        Self { radiance: Rgb::grey(1.0), albedo: Rgb::grey(0.0), two_sided: false }
+    }
+}
+
+impl Emissive {
+    pub(crate) fn check(&self, c: &mut Checker) {
+        c.radiance("radiance", self.radiance);
+        c.albedo("albedo", self.albedo);
+    }
+
+    #[inline]
+    pub(crate) fn bsdf(&self) -> LambertianBsdf {
+        LambertianBsdf { albedo: self.albedo.into() }
+    }
+
+    #[inline]
+    pub(crate) fn le(&self, wo: Vec3) -> Spectrum {
+        if wo.z > 0.0 || self.two_sided { self.radiance.into() } else { Spectrum::BLACK }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn shines_on_the_side_of_the_normal() {
+        let one = Emissive::default();
+        assert!(!one.le(Vec3::Z).is_black() && one.le(Vec3::NEG_Z).is_black());
+        let two = Emissive { two_sided: true, ..one };
+        assert_eq!(two.le(Vec3::Z), two.le(Vec3::NEG_Z));
+    }
+}

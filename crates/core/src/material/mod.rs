@@ -1,0 +1,128 @@
+//! How surfaces scatter and emit light.
+//!
+//! A [`MaterialDesc`] is what a scene says; at a hit it becomes a [`Bsdf`], a small lobe of numbers with the triple
+//! `sample`, `eval`, `pdf`. Directions are unit vectors in the surface's local frame (normal = +z) that point away
+//! from the surface: `wo` to where light is going, `wi` to where it comes from.
+
+mod dielectric;
+mod emissive;
+mod lambertian;
+mod metal;
+
+use glam::{Vec2, Vec3};
+use schemars::JsonSchema;
+use serde::{Deserialize, Serialize};
+
+use crate::color::Spectrum;
+use crate::validate::Checker;
+
+pub use dielectric::{Dielectric, DielectricBsdf, Fresnel};
+pub use emissive::Emissive;
+pub use lambertian::{Lambertian, LambertianBsdf};
+pub use metal::{Metal, MetalBsdf};
+
+/// A material as a scene states it: `[material.NAME.KIND]`.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(rename_all = "kebab-case")]
+pub enum MaterialDesc {
+    /// Matte.
+    Lambertian(Lambertian),
+    /// Mirror to rough metal.
+    Metal(Metal),
+    /// Smooth glass, water, diamond.
+    Dielectric(Dielectric),
+    /// A lamp.
+    Emissive(Emissive),
+}
+
+impl Default for MaterialDesc {
+    /// Grey matte.
+    fn default() -> Self {
+        Self::Lambertian(Lambertian::default())
+    }
+}
+
+impl MaterialDesc {
+    pub(crate) fn check(&self, c: &mut Checker) {
+        match self {
+            Self::Lambertian(m) => c.within("lambertian", |c| m.check(c)),
+            Self::Metal(m) => c.within("metal", |c| m.check(c)),
+            Self::Dielectric(m) => c.within("dielectric", |c| m.check(c)),
+            Self::Emissive(m) => c.within("emissive", |c| m.check(c)),
+        }
+    }
+
+    /// The lobe that scatters light here.
+    #[inline]
+    pub fn bsdf(&self) -> Bsdf {
+        match self {
+            Self::Lambertian(m) => Bsdf::Lambertian(m.bsdf()),
+            Self::Metal(m) => Bsdf::Metal(m.bsdf()),
+            Self::Dielectric(m) => Bsdf::Dielectric(m.bsdf()),
+            Self::Emissive(m) => Bsdf::Lambertian(m.bsdf()),
+        }
+    }
+
+    /// Radiance that the surface itself sends along `wo`.
+    #[inline]
+    pub fn le(&self, wo: Vec3) -> Spectrum {
+        match self {
+            Self::Emissive(m) => m.le(wo),
+            _ => Spectrum::BLACK,
+        }
+    }
+}
+
+/// A scattering lobe.
+#[derive(Clone, Copy, Debug)]
+pub enum Bsdf {
+    /// See [`Lambertian`].
+    Lambertian(LambertianBsdf),
+    /// See [`Metal`].
+    Metal(MetalBsdf),
+    /// See [`Dielectric`].
+    Dielectric(DielectricBsdf),
+}
+
+/// A direction drawn from a lobe.
+#[derive(Clone, Copy, Debug)]
+pub struct BsdfSample {
+    /// Where the light comes from.
+    pub wi: Vec3,
+    /// f · |cos θ| / pdf: the factor on the light that comes from there.
+    pub weight: Spectrum,
+    /// Density of `wi` per solid angle (1/sr); for a delta lobe the chance of this branch.
+    pub pdf: f32,
+    /// Whether `wi` is one of finitely many directions, which [`Bsdf::pdf`] knows nothing of.
+    pub delta: bool,
+}
+
+impl Bsdf {
+    /// Draws `wi` for a `wo`; none if the light is absorbed.
+    #[inline]
+    pub fn sample(&self, wo: Vec3, uc: f32, u: Vec2) -> Option<BsdfSample> {
+        match self {
+            Self::Lambertian(b) => b.sample(wo, u),
+            Self::Metal(b) => b.sample(wo, uc, u),
+            Self::Dielectric(b) => b.sample(wo, uc),
+        }
+    }
+
+    /// The BSDF times |cos θ| of `wi`; 0 for delta lobes.
+    pub fn eval(&self, wo: Vec3, wi: Vec3) -> Spectrum {
+        match self {
+            Self::Lambertian(b) => b.eval(wo, wi),
+            Self::Metal(b) => b.eval(wo, wi),
+            Self::Dielectric(_) => Spectrum::BLACK,
+        }
+    }
+
+    /// The density per solid angle with which [`sample`](Self::sample) draws `wi`; 0 for delta lobes.
+    pub fn pdf(&self, wo: Vec3, wi: Vec3) -> f32 {
+        match self {
+            Self::Lambertian(b) => b.pdf(wo, wi),
+            Self::Metal(b) => b.pdf(wo, wi),
+            Self::Dielectric(_) => 0.0,
+        }
+    }
+}

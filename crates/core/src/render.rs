@@ -1,0 +1,131 @@
+//! A picture in the making, as a value: every [`step`](Render::step) adds samples; everything else is a loop around it.
+//!
+//! The unit of work is a tile and a block of samples, of a size that depends on nothing. A unit's samples are a pure
+//! function of the scene, the settings and the unit, and the film adds them up exactly: the picture is the same bits for any
+//! number of threads, and wherever a render was stopped and resumed.
+
+use std::num::NonZeroUsize;
+use std::sync::atomic::{AtomicBool, AtomicU64, Ordering::Relaxed};
+use std::sync::{Mutex, PoisonError};
+use std::thread;
+
+use crate::camera::ThinLens;
+use crate::desc::RenderDesc;
+use crate::film::Film;
+use crate::integrator::{Integrator, IntegratorKind, Unit};
+use crate::scene::Scene;
+
+/// How to render. All but `threads` decides the picture; `threads` only how soon it is there.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Settings {
+    /// Pixels in a row, at least 1.
+    pub width: u32,
+    /// Rows, at least 1.
+    pub height: u32,
+    /// Samples per pixel.
+    pub spp: u32,
+    /// The most edges of a path.
+    pub max_depth: u32,
+    /// Chooses the random numbers.
+    pub seed: u64,
+    /// How light is traced.
+    pub integrator: IntegratorKind,
+    /// Threads that render; all processors that the process may use by default.
+    pub threads: NonZeroUsize,
+}
+
+impl From<&RenderDesc> for Settings {
+    fn from(desc: &RenderDesc) -> Self {
+        let &RenderDesc { width, height, spp, max_depth, seed, integrator } = desc;
+        let threads = thread::available_parallelism().unwrap_or(NonZeroUsize::MIN);
+        Self { width, height, spp, max_depth, seed, integrator, threads }
+    }
+}
+
+/// What another thread may see and say while a step runs.
+#[derive(Debug, Default)]
+pub struct Monitor {
+    /// Rays traced so far.
+    pub rays: AtomicU64,
+    /// Units of work done so far, of [`Render::units`].
+    pub units: AtomicU64,
+    /// Asks the step to end as soon as the units in work are done.
+    pub pause: AtomicBool,
+}
+
+/// A picture in the making.
+pub struct Render<'s> {
+    scene: &'s Scene,
+    settings: Settings,
+    camera: ThinLens,
+    integrator: Box<dyn Integrator>,
+    film: Film,
+    /// Units before this one are done; those of a pass come tile by tile.
+    next_unit: u64,
+}
+
+impl<'s> Render<'s> {
+    /// Samples that each pixel gets in one pass over the film.
+    pub const SAMPLES_PER_PASS: u32 = 16;
+
+    /// A picture without samples.
+    pub fn new(scene: &'s Scene, settings: Settings) -> Self {
+        Self {
+            scene,
+            camera: scene.camera(settings.width, settings.height),
+            integrator: settings.integrator.build(settings.max_depth),
+            film: Film::new(settings.width, settings.height),
+            settings,
+            next_unit: 0,
+        }
+    }
+
+    /// Adds a pass of samples, or what is left of one; ends early when asked to pause, and the next step goes on there.
+    pub fn step(&mut self, monitor: &Monitor) {
+        let tile_count = self.film.tile_count() as u64;
+        let pass = self.next_unit / tile_count;
+        let first = pass as u32 * Self::SAMPLES_PER_PASS;
+        let samples = first..self.settings.spp.min(first + Self::SAMPLES_PER_PASS);
+        let unit = Unit { camera: &self.camera, seed: self.settings.seed, samples };
+        let tiles: Vec<_> = self.film.tiles_mut().iter_mut().map(Mutex::new).collect();
+        let next_tile = AtomicU64::new(self.next_unit % tile_count);
+        let work = || {
+            while !monitor.pause.load(Relaxed) {
+                let Some(tile) = tiles.get(next_tile.fetch_add(1, Relaxed) as usize) else {
+                    break;
+                };
+                let mut tile = tile.lock().unwrap_or_else(PoisonError::into_inner);
+                let rays = self.integrator.render(self.scene, &unit, &mut tile);
+                monitor.rays.fetch_add(rays, Relaxed);
+                monitor.units.fetch_add(1, Relaxed);
+            }
+        };
+        thread::scope(|scope| {
+            for _ in 1..self.settings.threads.get().min(tiles.len()) {
+                scope.spawn(work);
+            }
+            work();
+        });
+        self.next_unit = pass * tile_count + next_tile.into_inner().min(tile_count);
+    }
+
+    /// Units of work in the whole render.
+    pub fn units(&self) -> u64 {
+        u64::from(self.settings.spp.div_ceil(Self::SAMPLES_PER_PASS)) * self.film.tile_count() as u64
+    }
+
+    /// Whether every pixel has all its samples.
+    pub fn is_done(&self) -> bool {
+        self.next_unit >= self.units()
+    }
+
+    /// The samples so far.
+    pub fn film(&self) -> &Film {
+        &self.film
+    }
+
+    /// How it is rendered.
+    pub fn settings(&self) -> &Settings {
+        &self.settings
+    }
+}

@@ -1,0 +1,5 @@
+//! From uniform numbers to directions and points.
+
+mod warp;
+
+pub use warp::{cosine_hemisphere, uniform_ball, uniform_disk, uniform_sphere};

@@ -1,0 +1,90 @@
+//! What is rendered: immutable, indices instead of names, ready for rays.
+
+use std::collections::BTreeMap;
+
+use eyebeam_bvh::{Bvh, Primitive, Ray};
+
+use crate::camera::{CameraDesc, ThinLens};
+use crate::desc::SceneDesc;
+use crate::interaction::SurfaceInteraction;
+use crate::light::EnvironmentDesc;
+use crate::material::MaterialDesc;
+use crate::shape::SurfacePoint;
+use crate::validate::Problem;
+
+/// A scene that rays can be traced through. After it is built, nothing can fail.
+#[derive(Clone, Debug)]
+pub struct Scene {
+    bvh: Bvh,
+    /// Index of each primitive's material.
+    material_of: Vec<u32>,
+    materials: Vec<MaterialDesc>,
+    environment: EnvironmentDesc,
+    camera: CameraDesc,
+}
+
+impl Scene {
+    /// Checks a description and prepares it for rays.
+    ///
+    /// # Errors
+    /// All that [`SceneDesc::check`] finds.
+    pub fn build(desc: &SceneDesc) -> Result<Self, Vec<Problem>> {
+        Self::build_with(desc, Bvh::build)
+    }
+
+    /// As [`build`](Self::build), with the acceleration structure of choice: [`Bvh::build`] or [`Bvh::list`].
+    ///
+    /// # Errors
+    /// All that [`SceneDesc::check`] finds.
+    pub fn build_with(desc: &SceneDesc, accelerate: fn(Vec<Primitive>) -> Bvh) -> Result<Self, Vec<Problem>> {
+        let problems = desc.check();
+        if !problems.is_empty() {
+            return Err(problems);
+        }
+        let mut materials = vec![MaterialDesc::default()];
+        let mut index_of = BTreeMap::from([(SceneDesc::DEFAULT_MATERIAL, 0)]);
+        for (name, material) in &desc.material {
+            index_of.insert(name, materials.len() as u32);
+            materials.push(material.clone());
+        }
+        let (mut primitives, mut material_of) = (Vec::new(), Vec::new());
+        for shape in desc.shape.iter() {
+            primitives.extend(shape.primitives);
+            // The check has found that every name exists.
+            let material = index_of.get(shape.material.unwrap_or(SceneDesc::DEFAULT_MATERIAL)).copied().unwrap_or(0);
+            material_of.resize(primitives.len(), material);
+        }
+        Ok(Self {
+            bvh: accelerate(primitives),
+            material_of,
+            materials,
+            environment: desc.environment.clone(),
+            camera: desc.camera.clone(),
+        })
+    }
+
+    /// The nearest surface that the ray meets; its direction must have length 1.
+    #[inline]
+    pub fn intersect(&self, ray: &Ray) -> Option<SurfaceInteraction<'_>> {
+        let hit = self.bvh.intersect(ray)?;
+        let point = SurfacePoint::new(self.bvh.primitive(&hit), ray, &hit);
+        let material = &self.materials[self.material_of[hit.prim as usize] as usize];
+        Some(SurfaceInteraction::new(point, ray.d, material))
+    }
+
+    /// Light from outside.
+    #[inline]
+    pub fn environment(&self) -> &EnvironmentDesc {
+        &self.environment
+    }
+
+    /// The camera for a picture of this size.
+    pub fn camera(&self, width: u32, height: u32) -> ThinLens {
+        ThinLens::new(&self.camera, width, height)
+    }
+
+    /// The number of primitives.
+    pub fn primitive_count(&self) -> usize {
+        self.material_of.len()
+    }
+}

@@ -1,0 +1,63 @@
+//! The triangle list.
+//!
+//! ```toml
+//! [[shape.mesh]]
+//! vertices = [[0, 0, 0], [1, 0, 0], [0, 1, 0]]
+//! triangles = [[0, 1, 2]]
+//! material = "paper"
+//! ```
+
+use eyebeam_bvh::{Hit, Primitive, Triangle};
+use glam::Vec3;
+use schemars::JsonSchema;
+use serde::{Deserialize, Serialize};
+
+use crate::shape::SurfacePoint;
+use crate::validate::Checker;
+
+/// Triangles that share vertices. The normal of triangle a, b, c is (b − a) × (c − a).
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct MeshDesc {
+    /// Vertices, metres.
+    pub vertices: Vec<[f32; 3]>,
+    /// Three indices into `vertices` each. Triangles without area are never hit.
+    pub triangles: Vec<[u32; 3]>,
+    /// Name of a material; grey matte if absent.
+    #[serde(default)]
+    pub material: Option<String>,
+}
+
+impl MeshDesc {
+    pub(crate) fn check(&self, c: &mut Checker) {
+        c.within("vertices", |c| {
+            for (i, vertex) in self.vertices.iter().enumerate() {
+                c.finite(&i.to_string(), vertex);
+            }
+        });
+        let count = self.vertices.len();
+        c.within("triangles", |c| {
+            for (i, triangle) in self.triangles.iter().enumerate() {
+                if let Some(missing) = triangle.iter().find(|&&v| v as usize >= count) {
+                    let hint = format!("the mesh has {count} vertices, counted from 0");
+                    c.problem(i, format!("triangle {i} names vertex {missing}, which does not exist"), Some(hint));
+                }
+            }
+        });
+    }
+
+    /// One triangle for each that names existing vertices.
+    pub(crate) fn primitives(&self) -> Vec<Primitive> {
+        let vertex = |i: u32| self.vertices.get(i as usize).map(|&v| Vec3::from(v));
+        let triangle = |&[a, b, c]: &[u32; 3]| Some(Triangle { a: vertex(a)?, b: vertex(b)?, c: vertex(c)? });
+        self.triangles.iter().filter_map(triangle).map(Primitive::Triangle).collect()
+    }
+}
+
+#[inline]
+pub(super) fn point(triangle: &Triangle, hit: &Hit) -> SurfacePoint {
+    let (a, b, c) = (triangle.a.as_dvec3(), triangle.b.as_dvec3(), triangle.c.as_dvec3());
+    let along_b = (b - a) * f64::from(hit.u);
+    let along_c = (c - a) * f64::from(hit.v);
+    SurfacePoint::on_plane(a + along_b + along_c, [triangle.b - triangle.a, triangle.c - triangle.a])
+}

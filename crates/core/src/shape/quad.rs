@@ -1,0 +1,56 @@
+//! The quad: rectangles and other parallelograms.
+//!
+//! ```toml
+//! [[shape.quad]]
+//! corner = [-1, 0, 1]
+//! u = [2, 0, 0]
+//! v = [0, 0, -2]
+//! material = "floor"
+//! ```
+
+use eyebeam_bvh::{Hit, Primitive, Quad};
+use glam::Vec3;
+use schemars::JsonSchema;
+use serde::{Deserialize, Serialize};
+
+use crate::shape::SurfacePoint;
+use crate::validate::Checker;
+
+/// A parallelogram: a corner and two edges. Its normal is u × v.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct QuadDesc {
+    /// A corner, metres.
+    pub corner: [f32; 3],
+    /// Edge from the corner, metres.
+    pub u: [f32; 3],
+    /// The other edge from the corner, metres.
+    pub v: [f32; 3],
+    /// Name of a material; grey matte if absent.
+    #[serde(default)]
+    pub material: Option<String>,
+}
+
+impl QuadDesc {
+    pub(crate) fn check(&self, c: &mut Checker) {
+        c.finite("corner", &self.corner);
+        c.nonzero("u", self.u);
+        c.nonzero("v", self.v);
+        let area = Vec3::from(self.u).as_dvec3().cross(Vec3::from(self.v).as_dvec3()).length();
+        if area == 0.0 && self.u != [0.0; 3] && self.v != [0.0; 3] {
+            c.problem("v", "`u` and `v` are parallel, so the quad has no area", Some("turn one of them".to_owned()));
+        }
+    }
+
+    pub(crate) fn primitives(&self) -> Vec<Primitive> {
+        let quad = Quad { corner: Vec3::from(self.corner), u: Vec3::from(self.u), v: Vec3::from(self.v) };
+        vec![Primitive::Quad(quad)]
+    }
+}
+
+#[inline]
+pub(super) fn point(quad: &Quad, hit: &Hit) -> SurfacePoint {
+    let along_u = quad.u.as_dvec3() * f64::from(hit.u);
+    let along_v = quad.v.as_dvec3() * f64::from(hit.v);
+    SurfacePoint::on_plane(quad.corner.as_dvec3() + along_u + along_v, [quad.u, quad.v])
+}

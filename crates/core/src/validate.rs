@@ -1,0 +1,132 @@
+//! What can be wrong with a description of a scene, and where.
+
+use std::fmt;
+
+use crate::color::Rgb;
+
+/// Something wrong with a [`SceneDesc`](crate::desc::SceneDesc). Readers turn `path` into a line of their file.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Problem {
+    /// Keys and indices from the root to the value, such as `material`, `wall`, `metal`, `roughness`.
+    pub path: Vec<String>,
+    /// What is wrong.
+    pub message: String,
+    /// What to do about it.
+    pub hint: Option<String>,
+}
+
+impl fmt::Display for Problem {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        write!(f, "{}: {}", self.path.join("."), self.message)
+    }
+}
+
+impl std::error::Error for Problem {}
+
+/// Collects problems while it walks down a description.
+#[derive(Default)]
+pub(crate) struct Checker {
+    path: Vec<String>,
+    problems: Vec<Problem>,
+}
+
+impl Checker {
+    pub(crate) fn into_problems(self) -> Vec<Problem> {
+        self.problems
+    }
+
+    /// Checks what lies below a key or index.
+    pub(crate) fn within(&mut self, key: impl ToString, check: impl FnOnce(&mut Self)) {
+        self.path.push(key.to_string());
+        check(self);
+        self.path.pop();
+    }
+
+    /// Notes a problem of the value at `key`.
+    pub(crate) fn problem(&mut self, key: impl ToString, message: impl Into<String>, hint: Option<String>) {
+        let mut path = self.path.clone();
+        path.push(key.to_string());
+        self.problems.push(Problem { path, message: message.into(), hint });
+    }
+
+    fn require(&mut self, holds: bool, key: &str, message: impl FnOnce() -> String, hint: &str) {
+        if !holds {
+            self.problem(key, message(), Some(hint.to_owned()));
+        }
+    }
+
+    pub(crate) fn finite(&mut self, key: &str, values: &[f32]) {
+        let bad = values.iter().find(|v| !(v.is_finite() && v.abs() <= Self::FARTHEST));
+        self.require(
+            bad.is_none(),
+            key,
+            || format!("`{key}` must be made of finite numbers, not {}", bad.unwrap_or(&f32::NAN)),
+            "numbers up to 1e15 in size are allowed",
+        );
+    }
+
+    /// Farther away, squares of distances leave single precision's range.
+    const FARTHEST: f32 = 1e15;
+
+    pub(crate) fn positive(&mut self, key: &str, value: f32) {
+        self.require(
+            value > 0.0 && value <= Self::FARTHEST,
+            key,
+            || format!("`{key}` must be above 0, not {value}"),
+            "use a finite number above 0",
+        );
+    }
+
+    pub(crate) fn in_range(&mut self, key: &str, value: f32, lo: f32, hi: f32) {
+        self.require(
+            (lo..=hi).contains(&value),
+            key,
+            || format!("`{key}` must be from {lo} to {hi}, not {value}"),
+            &format!("use a number from {lo} to {hi}"),
+        );
+    }
+
+    pub(crate) fn count(&mut self, key: &str, value: u32, hi: u32) {
+        self.require(
+            (1..=hi).contains(&value),
+            key,
+            || format!("`{key}` must be from 1 to {hi}, not {value}"),
+            &format!("use a whole number from 1 to {hi}"),
+        );
+    }
+
+    /// An albedo above 1 would make light out of nothing, so it is an error, not a warning.
+    pub(crate) fn albedo(&mut self, key: &str, rgb: Rgb) {
+        let bad = rgb.0.iter().find(|c| !(0.0..=1.0).contains(*c));
+        self.require(
+            bad.is_none(),
+            key,
+            || format!("`{key}` must be from 0 to 1 in each channel, not {}", bad.unwrap_or(&f32::NAN)),
+            "a surface cannot reflect more light than it gets; let it shine with an `emissive` material",
+        );
+    }
+
+    pub(crate) fn radiance(&mut self, key: &str, rgb: Rgb) {
+        let bad = rgb.0.iter().find(|c| !(0.0..=Self::BRIGHTEST).contains(*c));
+        self.require(
+            bad.is_none(),
+            key,
+            || {
+                format!(
+                    "`{key}` must be from 0 to {:e} in each channel, not {}",
+                    Self::BRIGHTEST,
+                    bad.unwrap_or(&f32::NAN)
+                )
+            },
+            "use finite numbers that are not negative",
+        );
+    }
+
+    /// The film holds sums of samples up to 2³² (see [`film`](crate::film)).
+    const BRIGHTEST: f32 = 1e9;
+
+    pub(crate) fn nonzero(&mut self, key: &str, v: [f32; 3]) {
+        self.finite(key, &v);
+        self.require(v != [0.0; 3], key, || format!("`{key}` must not be [0, 0, 0]"), "give it a length");
+    }
+}
