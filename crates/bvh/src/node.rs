@@ -16,8 +16,6 @@ const HALF_EPSILON: f32 = f32::EPSILON * 0.5;
 pub(crate) struct Child(u32);
 
 impl Child {
-    /// The most primitives that a leaf can hold.
-    pub(crate) const MAX_LEAF: usize = 15;
     /// The most primitives that a tree can hold.
     pub(crate) const MAX_SLOTS: usize = 1 << 27;
 
@@ -27,6 +25,7 @@ impl Child {
         Self(index as u32)
     }
 
+    /// Up to 15 primitives.
     pub(crate) fn leaf(first: usize, count: usize) -> Self {
         Self(1 << 31 | (count as u32) << 27 | first as u32)
     }

@@ -100,35 +100,32 @@ impl SceneDesc {
                 c.within(name, |c| material.check(c));
             }
         });
-        c.within("shape", |c| self.shape.check(c));
-        c.within("shape", |c| self.check_material_names(c));
+        c.within("shape", |c| {
+            for (kind, index, shape) in self.shape.iter() {
+                c.within(kind, |c| {
+                    c.within(index, |c| {
+                        shape.check(c);
+                        self.check_material_name(shape.material(), c);
+                    });
+                });
+            }
+        });
         c.into_problems()
     }
 
-    fn check_material_names(&self, c: &mut Checker) {
-        let spheres = self.shape.sphere.iter().map(|s| &s.material).enumerate().map(|s| ("sphere", s));
-        let quads = self.shape.quad.iter().map(|q| &q.material).enumerate().map(|q| ("quad", q));
-        let meshes = self.shape.mesh.iter().map(|m| &m.material).enumerate().map(|m| ("mesh", m));
-        for (kind, (index, name)) in spheres.chain(quads).chain(meshes) {
-            let Some(name) = name.as_deref().filter(|name| !self.is_material(name)) else {
-                continue;
-            };
-            let mut hint = "the scene has no materials; add one as [material.NAME.KIND]".to_owned();
-            if !self.material.is_empty() {
-                let names: Vec<_> = self.material.keys().take(12).map(|n| format!("`{n}`")).collect();
-                hint = format!(
-                    "materials are {}{}",
-                    names.join(", "),
-                    if self.material.len() > 12 { ", ..." } else { "" }
-                );
-            }
-            c.within(kind, |c| {
-                c.within(index, |c| c.problem("material", format!("there is no material `{name}`"), Some(hint)))
-            });
+    fn check_material_name(&self, name: Option<&str>, c: &mut Checker) {
+        let Some(name) = name.filter(|&name| name != Self::DEFAULT_MATERIAL && !self.material.contains_key(name))
+        else {
+            return;
+        };
+        let mut names: Vec<_> = self.material.keys().take(12).map(|n| format!("`{n}`")).collect();
+        if self.material.len() > names.len() {
+            names.push("...".to_owned());
         }
-    }
-
-    fn is_material(&self, name: &str) -> bool {
-        name == Self::DEFAULT_MATERIAL || self.material.contains_key(name)
+        let hint = match names[..] {
+            [] => "the scene has no materials; add one as [material.NAME.KIND]".to_owned(),
+            _ => format!("materials are {}", names.join(", ")),
+        };
+        c.problem("material", format!("there is no material `{name}`"), Some(hint));
     }
 }

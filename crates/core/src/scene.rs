@@ -48,10 +48,10 @@ impl Scene {
             materials.push(material.clone());
         }
         let (mut primitives, mut material_of) = (Vec::new(), Vec::new());
-        for shape in desc.shape.iter() {
-            primitives.extend(shape.primitives);
+        for (_, _, shape) in desc.shape.iter() {
+            shape.push_primitives(&mut primitives);
             // The check has found that every name exists.
-            let material = index_of.get(shape.material.unwrap_or(SceneDesc::DEFAULT_MATERIAL)).copied().unwrap_or(0);
+            let material = index_of.get(shape.material().unwrap_or(SceneDesc::DEFAULT_MATERIAL)).copied().unwrap_or(0);
             material_of.resize(primitives.len(), material);
         }
         Ok(Self {

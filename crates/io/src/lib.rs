@@ -1,1 +1,11 @@
-//! x
+//! Files: scenes to [`SceneDesc`](eyebeam_core::desc::SceneDesc), pictures to bytes.
+//!
+//! Everything read from outside ends here, as a description or as an [`Error`] with its place; nothing panics.
+#![forbid(unsafe_code)]
+
+pub mod error;
+pub mod image;
+pub mod output;
+pub mod scene;
+
+pub use error::{Diagnostic, Error, Place};

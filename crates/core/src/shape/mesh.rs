@@ -12,7 +12,7 @@ use glam::Vec3;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
-use crate::shape::SurfacePoint;
+use crate::shape::{ShapeDesc, SurfacePoint};
 use crate::validate::Checker;
 
 /// Triangles that share vertices. The normal of triangle a, b, c is (b − a) × (c − a).
@@ -28,8 +28,8 @@ pub struct MeshDesc {
     pub material: Option<String>,
 }
 
-impl MeshDesc {
-    pub(crate) fn check(&self, c: &mut Checker) {
+impl ShapeDesc for MeshDesc {
+    fn check(&self, c: &mut Checker) {
         c.within("vertices", |c| {
             for (i, vertex) in self.vertices.iter().enumerate() {
                 c.finite(&i.to_string(), vertex);
@@ -46,11 +46,15 @@ impl MeshDesc {
         });
     }
 
-    /// One triangle for each that names existing vertices.
-    pub(crate) fn primitives(&self) -> Vec<Primitive> {
+    fn push_primitives(&self, primitives: &mut Vec<Primitive>) {
+        // The check has found that every vertex exists.
         let vertex = |i: u32| self.vertices.get(i as usize).map(|&v| Vec3::from(v));
         let triangle = |&[a, b, c]: &[u32; 3]| Some(Triangle { a: vertex(a)?, b: vertex(b)?, c: vertex(c)? });
-        self.triangles.iter().filter_map(triangle).map(Primitive::Triangle).collect()
+        primitives.extend(self.triangles.iter().filter_map(triangle).map(Primitive::Triangle));
+    }
+
+    fn material(&self) -> Option<&str> {
+        self.material.as_deref()
     }
 }
 

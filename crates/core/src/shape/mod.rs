@@ -30,37 +30,26 @@ pub struct ShapesDesc {
 }
 
 impl ShapesDesc {
-    pub(crate) fn check(&self, c: &mut Checker) {
-        fn each<T>(c: &mut Checker, kind: &str, shapes: &[T], check: impl Fn(&T, &mut Checker)) {
-            c.within(kind, |c| shapes.iter().enumerate().for_each(|(i, shape)| c.within(i, |c| check(shape, c))));
+    /// Every shape with its kind and its place among those of its kind.
+    pub(crate) fn iter(&self) -> impl Iterator<Item = (&'static str, usize, &dyn ShapeDesc)> {
+        type Entry<'a> = (&'static str, usize, &'a dyn ShapeDesc);
+        fn all<'a>(kind: &'static str, shapes: &'a [impl ShapeDesc]) -> impl Iterator<Item = Entry<'a>> {
+            shapes.iter().enumerate().map(move |(i, shape)| (kind, i, shape as &dyn ShapeDesc))
         }
-        each(c, "sphere", &self.sphere, SphereDesc::check);
-        each(c, "quad", &self.quad, QuadDesc::check);
-        each(c, "mesh", &self.mesh, MeshDesc::check);
-    }
-
-    /// Every shape's place in the description, its primitives, and the name of its material.
-    pub(crate) fn iter(&self) -> impl Iterator<Item = ShapeRef<'_>> {
-        let spheres =
-            self.sphere.iter().enumerate().map(|(i, s)| ShapeRef::new("sphere", i, s.primitives(), &s.material));
-        let quads = self.quad.iter().enumerate().map(|(i, q)| ShapeRef::new("quad", i, q.primitives(), &q.material));
-        let meshes = self.mesh.iter().enumerate().map(|(i, m)| ShapeRef::new("mesh", i, m.primitives(), &m.material));
-        spheres.chain(quads).chain(meshes)
+        all("sphere", &self.sphere).chain(all("quad", &self.quad)).chain(all("mesh", &self.mesh))
     }
 }
 
-/// One shape among all kinds.
-pub(crate) struct ShapeRef<'a> {
-    pub(crate) kind: &'static str,
-    pub(crate) index: usize,
-    pub(crate) primitives: Vec<Primitive>,
-    pub(crate) material: Option<&'a str>,
-}
+/// A shape as a scene states it.
+pub(crate) trait ShapeDesc {
+    /// Notes what is wrong with it.
+    fn check(&self, c: &mut Checker);
 
-impl<'a> ShapeRef<'a> {
-    fn new(kind: &'static str, index: usize, primitives: Vec<Primitive>, material: &'a Option<String>) -> Self {
-        Self { kind, index, primitives, material: material.as_deref() }
-    }
+    /// Appends what rays meet.
+    fn push_primitives(&self, primitives: &mut Vec<Primitive>);
+
+    /// The name of its material.
+    fn material(&self) -> Option<&str>;
 }
 
 /// A point of a surface.

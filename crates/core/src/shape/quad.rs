@@ -13,7 +13,7 @@ use glam::Vec3;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
-use crate::shape::SurfacePoint;
+use crate::shape::{ShapeDesc, SurfacePoint};
 use crate::validate::Checker;
 
 /// A parallelogram: a corner and two edges. Its normal is u × v.
@@ -31,8 +31,8 @@ pub struct QuadDesc {
     pub material: Option<String>,
 }
 
-impl QuadDesc {
-    pub(crate) fn check(&self, c: &mut Checker) {
+impl ShapeDesc for QuadDesc {
+    fn check(&self, c: &mut Checker) {
         c.finite("corner", &self.corner);
         c.nonzero("u", self.u);
         c.nonzero("v", self.v);
@@ -42,9 +42,13 @@ impl QuadDesc {
         }
     }
 
-    pub(crate) fn primitives(&self) -> Vec<Primitive> {
+    fn push_primitives(&self, primitives: &mut Vec<Primitive>) {
         let quad = Quad { corner: Vec3::from(self.corner), u: Vec3::from(self.u), v: Vec3::from(self.v) };
-        vec![Primitive::Quad(quad)]
+        primitives.push(Primitive::Quad(quad));
+    }
+
+    fn material(&self) -> Option<&str> {
+        self.material.as_deref()
     }
 }
 

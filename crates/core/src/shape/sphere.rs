@@ -12,7 +12,7 @@ use glam::Vec3;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
-use crate::shape::SurfacePoint;
+use crate::shape::{ShapeDesc, SurfacePoint};
 use crate::validate::Checker;
 
 /// A sphere; its normal points outwards.
@@ -29,14 +29,18 @@ pub struct SphereDesc {
     pub material: Option<String>,
 }
 
-impl SphereDesc {
-    pub(crate) fn check(&self, c: &mut Checker) {
+impl ShapeDesc for SphereDesc {
+    fn check(&self, c: &mut Checker) {
         c.finite("center", &self.center);
         c.positive("radius", self.radius);
     }
 
-    pub(crate) fn primitives(&self) -> Vec<Primitive> {
-        vec![Primitive::Sphere(Sphere { center: Vec3::from(self.center), radius: self.radius })]
+    fn push_primitives(&self, primitives: &mut Vec<Primitive>) {
+        primitives.push(Primitive::Sphere(Sphere { center: Vec3::from(self.center), radius: self.radius }));
+    }
+
+    fn material(&self) -> Option<&str> {
+        self.material.as_deref()
     }
 }
 

@@ -1,0 +1,38 @@
+//! The commands, each a file.
+
+mod check;
+mod figures;
+mod render;
+mod schema;
+
+use std::io::{Write, stdout};
+use std::path::Path;
+
+use crate::args::{Args, Command};
+use crate::error::Error;
+
+pub(crate) fn run(args: Args) -> Result<(), Error> {
+    match args.command {
+        Command::Render(args) => render::run(&args),
+        Command::Check(args) => check::run(&args),
+        Command::Schema => schema::run(),
+        Command::Figures(args) => figures::run(&args),
+    }
+}
+
+/// Whether a name stands for standard input or output.
+fn is_standard(path: &Path) -> bool {
+    path == Path::new("-")
+}
+
+/// Writes bytes to a file, or to standard output for `-`.
+fn write(path: &Path, bytes: &[u8]) -> Result<(), Error> {
+    if is_standard(path) {
+        let mut out = stdout().lock();
+        return out
+            .write_all(bytes)
+            .and_then(|()| out.flush())
+            .map_err(|source| Error::Write { path: path.to_owned(), source });
+    }
+    Ok(eyebeam_io::output::write_atomic(path, bytes)?)
+}

@@ -1,0 +1,130 @@
+//! What a picture says of itself, and what a render says of its work: JSON in the file, and in `--stats`.
+
+use eyebeam_core::desc::{RenderDesc, SceneDesc};
+use eyebeam_core::film::{ErrorEstimate, Film, SampleCounts};
+use serde::Serialize;
+use sha2::{Digest, Sha256};
+
+use crate::args::RenderArgs;
+use crate::limits::peak_memory;
+
+/// What made a picture; enough to make the same bits again.
+#[derive(Debug, Serialize)]
+pub(super) struct Provenance<'a> {
+    schema: &'static str,
+    version: &'static str,
+    /// The scene file, as it was named.
+    scene: String,
+    /// Settings of the command line that changed the scene.
+    overrides: Vec<String>,
+    /// SHA-256 of the scene with all that was included and changed, but for `settings`.
+    scene_hash: String,
+    settings: &'a RenderDesc,
+    spp: Spp,
+    error: Option<Error>,
+    #[serde(skip)]
+    dropped: u64,
+}
+
+#[derive(Debug, Serialize)]
+struct Spp {
+    min: u32,
+    mean: f64,
+    max: u32,
+}
+
+#[derive(Debug, Serialize)]
+struct Error {
+    mean: f64,
+    p95: f64,
+}
+
+impl<'a> Provenance<'a> {
+    pub(super) fn new(args: &RenderArgs, desc: &'a SceneDesc, film: &Film, error: Option<ErrorEstimate>) -> Self {
+        let SampleCounts { min, mean, max, dropped } = film.sample_counts();
+        Self {
+            schema: "eyebeam-render-1",
+            version: env!("CARGO_PKG_VERSION"),
+            scene: args.scene.display().to_string(),
+            overrides: args.set.iter().map(|o| format!("{}={}", o.path, o.value)).collect(),
+            scene_hash: scene_hash(desc),
+            settings: &desc.render,
+            spp: Spp { min, mean, max },
+            error: error.map(|ErrorEstimate { mean, p95 }| Error { mean, p95 }),
+            dropped,
+        }
+    }
+
+    pub(super) fn to_json(&self) -> String {
+        serde_json::to_string(self).unwrap_or_default()
+    }
+}
+
+fn scene_hash(desc: &SceneDesc) -> String {
+    let scene = SceneDesc { render: RenderDesc::default(), ..desc.clone() };
+    let json = serde_json::to_vec(&scene).unwrap_or_default();
+    Sha256::digest(json).iter().map(|byte| format!("{byte:02x}")).collect()
+}
+
+/// Seconds of each phase.
+#[derive(Clone, Debug, Default, Serialize)]
+pub(super) struct Phases {
+    pub(super) load: f64,
+    pub(super) build: f64,
+    pub(super) render: f64,
+    pub(super) write: f64,
+}
+
+/// What was done and how long it took.
+#[derive(Debug, Serialize)]
+pub(super) struct Stats<'a> {
+    #[serde(flatten)]
+    provenance: Provenance<'a>,
+    stop_reason: &'static str,
+    nan_count: u64,
+    /// Nothing is clamped.
+    clamped_energy: f64,
+    seconds: Phases,
+    rays: u64,
+    rays_per_s: f64,
+    peak_rss_bytes: Option<u64>,
+    threads: usize,
+    warnings: Vec<String>,
+}
+
+impl<'a> Stats<'a> {
+    pub(super) fn new(
+        provenance: Provenance<'a>,
+        threads: usize,
+        phases: &Phases,
+        rays: u64,
+        signal: Option<u8>,
+    ) -> Self {
+        let dropped = provenance.dropped;
+        let warnings = (dropped > 0).then(|| format!("{dropped} samples were no finite numbers and do not count"));
+        Self {
+            provenance,
+            stop_reason: if signal.is_some() { "signal" } else { "spp" },
+            nan_count: dropped,
+            clamped_energy: 0.0,
+            seconds: phases.clone(),
+            rays,
+            rays_per_s: rays as f64 / phases.render,
+            peak_rss_bytes: peak_memory(),
+            threads,
+            warnings: Vec::from_iter(warnings),
+        }
+    }
+
+    pub(super) fn mean_spp(&self) -> f64 {
+        self.provenance.spp.mean
+    }
+
+    pub(super) fn warnings(&self) -> &[String] {
+        &self.warnings
+    }
+
+    pub(super) fn to_json(&self) -> String {
+        serde_json::to_string_pretty(self).unwrap_or_default() + "\n"
+    }
+}

@@ -1,0 +1,52 @@
+//! Why a command ended early, and the exit code that says so.
+
+use std::path::PathBuf;
+
+/// The exit code of a bug.
+pub(crate) const INTERNAL: u8 = 1;
+
+#[derive(Debug, thiserror::Error)]
+pub(crate) enum Error {
+    #[error(transparent)]
+    Io(#[from] eyebeam_io::Error),
+    /// A scene that was read is refused by the renderer, which a reader's check should have found.
+    #[error("error: {0}")]
+    Scene(eyebeam_core::validate::Problem),
+    #[error("error: {0}")]
+    Usage(String),
+    #[error("error: the picture would need {}, and {} are allowed\nhint: make it smaller (-r), or allow more (--memory)", bytes(*.needed), bytes(*.allowed))]
+    Memory { needed: u64, allowed: u64 },
+    #[error("error: cannot write `{}`: {source}", .path.display())]
+    Write { path: PathBuf, source: std::io::Error },
+    /// Ended by a signal; what there was of the picture is written.
+    #[error("")]
+    Signal(u8),
+}
+
+impl Error {
+    /// What to say about it; nothing if it has been said.
+    pub(crate) fn message(&self) -> Option<String> {
+        match self {
+            Self::Signal(_) => None,
+            other => Some(other.to_string()),
+        }
+    }
+
+    pub(crate) fn exit_code(&self) -> u8 {
+        match self {
+            Self::Usage(_) | Self::Io(eyebeam_io::Error::UnknownFormat { .. }) => 2,
+            Self::Io(eyebeam_io::Error::Scene(_)) | Self::Scene(_) => 3,
+            Self::Io(eyebeam_io::Error::Io { .. }) | Self::Write { .. } => 4,
+            Self::Memory { .. } => 5,
+            Self::Io(eyebeam_io::Error::Encode(_)) => INTERNAL,
+            Self::Signal(number) => 128 + number,
+        }
+    }
+}
+
+/// `12.3 GiB`
+fn bytes(n: u64) -> String {
+    let units = ["B", "KiB", "MiB", "GiB", "TiB", "PiB", "EiB"];
+    let power = (n.max(1).ilog2() / 10) as usize;
+    format!("{:.1} {}", n as f64 / (1_u64 << (10 * power)) as f64, units[power])
+}

@@ -1,0 +1,5 @@
+//! The command `eyebeam`.
+
+fn main() -> std::process::ExitCode {
+    eyebeam::run(std::env::args_os())
+}

@@ -1,0 +1,213 @@
+//! Texts and places in them. A scene's texts, its file and all that it includes, share one line of offsets, so a
+//! span alone tells file, line and column.
+
+use std::fs::File;
+use std::io::{Read, stdin};
+use std::ops::Range;
+use std::path::{Component, Path, PathBuf};
+
+use toml::Spanned;
+use toml::de::{DeTable, DeValue};
+
+use crate::error::{Diagnostic, Error, Place};
+
+/// Longer scene files are refused; geometry of that size belongs into mesh files.
+const MAX_BYTES: u64 = 256 << 20;
+/// Files that include files that include files.
+const MAX_INCLUDE_DEPTH: usize = 16;
+
+/// All texts of a scene.
+#[derive(Default)]
+pub(super) struct Sources {
+    texts: Vec<Source>,
+    problems: Vec<Problem>,
+}
+
+/// One text.
+pub(super) struct Source {
+    name: String,
+    pub(super) text: String,
+    /// Offset of the text's first byte.
+    pub(super) base: usize,
+    /// The texts that it includes, by index.
+    pub(super) includes: Vec<usize>,
+}
+
+/// What is wrong, and its offset: problems are told in the order of the text.
+pub(super) struct Problem {
+    pub(super) start: usize,
+    pub(super) diagnostic: Diagnostic,
+}
+
+impl Sources {
+    /// The text of a file and of all that it includes; the file's comes first.
+    ///
+    /// # Errors
+    /// If one cannot be read, is no TOML, or includes what it must not.
+    pub(super) fn load(path: &Path) -> Result<Self, Error> {
+        let mut sources = Self::default();
+        let text = read_text(path)?;
+        let mut open = Vec::from_iter(path.canonicalize());
+        sources.load_text(path.display().to_string(), text, path.parent(), &mut open)?;
+        sources.finish()
+    }
+
+    /// A text that is no file, and so cannot include any.
+    ///
+    /// # Errors
+    /// If it is no TOML.
+    pub(super) fn from_text(name: &str, text: &str) -> Result<Self, Error> {
+        let mut sources = Self::default();
+        sources.load_text(name.to_owned(), text.to_owned(), None, &mut Vec::new())?;
+        sources.finish()
+    }
+
+    fn finish(mut self) -> Result<Self, Error> {
+        if self.problems.is_empty() { Ok(self) } else { Err(into_error(std::mem::take(&mut self.problems))) }
+    }
+
+    /// Adds a text; returns its index.
+    pub(super) fn add(&mut self, name: String, text: String) -> usize {
+        // One more than the length: the end of a text is a place, too.
+        let base = self.texts.last().map_or(0, |s| s.base + s.text.len() + 1);
+        self.texts.push(Source { name, text, base, includes: Vec::new() });
+        self.texts.len() - 1
+    }
+
+    pub(super) fn get(&self, index: usize) -> &Source {
+        &self.texts[index]
+    }
+
+    fn load_text(
+        &mut self,
+        name: String,
+        text: String,
+        folder: Option<&Path>,
+        open: &mut Vec<PathBuf>,
+    ) -> Result<usize, Error> {
+        let (table, errors) = DeTable::parse_recoverable(&text);
+        let names: Vec<(Range<usize>, String)> = match table.get_ref().get("include").map(Spanned::get_ref) {
+            Some(DeValue::Array(names)) => {
+                names.iter().filter_map(|n| Some((n.span(), n.get_ref().as_str()?.to_owned()))).collect()
+            }
+            _ => Vec::new(),
+        };
+        let is_valid = errors.is_empty();
+        let index = self.add(name, text.clone());
+        let base = self.texts[index].base;
+        for error in errors {
+            let Range { start, end } = error.span().unwrap_or_default();
+            self.report(start + base..end + base, error.message().replace('\n', ", "), None);
+        }
+        for (span, name) in names.into_iter().filter(|_| is_valid) {
+            match self.include(&name, folder, open) {
+                Ok(included) => self.texts[index].includes.push(included),
+                Err(Refusal::Here { message, hint }) => {
+                    self.report(span.start + base..span.end + base, message, Some(hint.to_owned()));
+                }
+                Err(Refusal::There(error)) => return Err(error),
+            }
+        }
+        Ok(index)
+    }
+
+    fn include(&mut self, name: &str, folder: Option<&Path>, open: &mut Vec<PathBuf>) -> Result<usize, Refusal> {
+        let refuse = |message, hint| Err(Refusal::Here { message, hint });
+        let root = open.first().and_then(|file| file.parent());
+        let (Some(folder), Some(root)) = (folder, root) else {
+            return refuse(format!("cannot include `{name}`: this scene has no folder"), "save it as a file");
+        };
+        let path = folder.join(name);
+        let real = path.canonicalize();
+        let leads_out = Path::new(name).components().any(|c| !matches!(c, Component::Normal(_) | Component::CurDir));
+        if leads_out || real.as_ref().is_ok_and(|real| !real.starts_with(root)) {
+            return refuse(
+                format!("`{name}` is outside the scene's folder"),
+                "include files that lie beside the scene or below",
+            );
+        }
+        let unreadable = |e| Refusal::Here {
+            message: format!("cannot read `{name}`: {e}"),
+            hint: "names are relative to the file that includes",
+        };
+        let real = real.map_err(unreadable)?;
+        if open.contains(&real) {
+            return refuse(format!("`{name}` includes itself"), "break the circle");
+        }
+        if open.len() >= MAX_INCLUDE_DEPTH {
+            return refuse(format!("`{name}` is at the end of a chain of {MAX_INCLUDE_DEPTH} files"), "include fewer");
+        }
+        let text = read_text(&real).map_err(|e| match e {
+            Error::Io { source, .. } => unreadable(source),
+            other => Refusal::There(other),
+        })?;
+        open.push(real);
+        let index = self.load_text(path.display().to_string(), text, path.parent(), open).map_err(Refusal::There);
+        open.pop();
+        index
+    }
+
+    fn report(&mut self, span: Range<usize>, message: String, hint: Option<String>) {
+        self.problems.push(self.problem(span, message, hint));
+    }
+
+    /// What is wrong at a span.
+    pub(super) fn problem(&self, span: Range<usize>, message: String, hint: Option<String>) -> Problem {
+        Problem { start: span.start, diagnostic: Diagnostic { message, place: self.place(span.start), hint } }
+    }
+
+    fn place(&self, offset: usize) -> Option<Place> {
+        let source = self.texts.iter().rev().find(|s| s.base <= offset)?;
+        let before = source.text.get(..offset - source.base).unwrap_or(&source.text);
+        let line_start = before.rfind('\n').map_or(0, |i| i + 1);
+        Some(Place {
+            file: source.name.clone(),
+            line: before.matches('\n').count() + 1,
+            column: before[line_start..].chars().count() + 1,
+        })
+    }
+}
+
+/// Why a file is not included.
+enum Refusal {
+    /// The including file is wrong.
+    Here { message: String, hint: &'static str },
+    /// The included file is.
+    There(Error),
+}
+
+/// The problems of a scene in the order of its text.
+pub(super) fn into_error(mut problems: Vec<Problem>) -> Error {
+    problems.sort_by_key(|p| p.start);
+    Error::Scene(problems.into_iter().map(|p| p.diagnostic).collect())
+}
+
+/// The text of a file, or of standard input for `-`.
+pub(super) fn read_text(path: &Path) -> Result<String, Error> {
+    let mut bytes = Vec::new();
+    if path == Path::new("-") {
+        stdin().lock().take(MAX_BYTES + 1).read_to_end(&mut bytes)
+    } else {
+        File::open(path).and_then(|file| file.take(MAX_BYTES + 1).read_to_end(&mut bytes))
+    }
+    .map_err(|e| Error::read(path, e))?;
+    let refuse = |message: String, line: usize, column: usize, hint: &str| {
+        let place = Some(Place { file: path.display().to_string(), line, column });
+        Error::Scene(vec![Diagnostic { message, place, hint: Some(hint.to_owned()) }])
+    };
+    if bytes.len() as u64 > MAX_BYTES {
+        let message = format!("the scene file is longer than {} MiB", MAX_BYTES >> 20);
+        return Err(refuse(message, 1, 1, "is it a scene file at all?"));
+    }
+    if bytes.iter().all(u8::is_ascii_whitespace) {
+        return Err(refuse("the scene file is empty".to_owned(), 1, 1, "begin with [[shape.sphere]]"));
+    }
+    String::from_utf8(bytes).map_err(|e| {
+        let valid = &e.as_bytes()[..e.utf8_error().valid_up_to()];
+        let line_start = valid.iter().rposition(|&b| b == b'\n').map_or(0, |i| i + 1);
+        let line = valid.iter().filter(|&&b| b == b'\n').count() + 1;
+        let column = String::from_utf8_lossy(&valid[line_start..]).chars().count() + 1;
+        let byte = e.as_bytes().get(valid.len()).copied().unwrap_or_default();
+        refuse(format!("byte 0x{byte:02x} is not UTF-8"), line, column, "scene files are UTF-8 text")
+    })
+}
