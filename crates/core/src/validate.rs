@@ -57,12 +57,8 @@ impl Checker {
 
     pub(crate) fn finite(&mut self, key: &str, values: &[f32]) {
         let bad = values.iter().find(|v| !(v.is_finite() && v.abs() <= Self::FARTHEST));
-        self.require(
-            bad.is_none(),
-            key,
-            || format!("`{key}` must be made of finite numbers, not {}", bad.unwrap_or(&f32::NAN)),
-            "numbers up to 1e15 in size are allowed",
-        );
+        let message = || format!("`{key}` must be finite, not {}", bad.unwrap_or(&f32::NAN));
+        self.require(bad.is_none(), key, message, "numbers up to 1e15 in size are allowed");
     }
 
     /// Farther away, squares of distances leave single precision's range.

@@ -32,6 +32,10 @@ pub fn write_atomic(path: &Path, bytes: &[u8]) -> Result<(), Error> {
 
 fn temporary_beside(path: &Path) -> Result<NamedTempFile, Error> {
     let folder = path.parent().filter(|p| !p.as_os_str().is_empty()).unwrap_or(Path::new("."));
+    if !folder.is_dir() {
+        let missing = format!("there is no folder `{}`", folder.display());
+        return Err(Error::write(path, std::io::Error::new(std::io::ErrorKind::NotFound, missing)));
+    }
     let mut builder = Builder::new();
     builder.prefix(".eyebeam-").suffix(".part");
     #[cfg(unix)]
@@ -40,7 +44,8 @@ fn temporary_beside(path: &Path) -> Result<NamedTempFile, Error> {
         use std::os::unix::fs::PermissionsExt;
         builder.permissions(fs::Permissions::from_mode(0o666));
     }
-    builder.tempfile_in(folder).map_err(|e| Error::write(path, e))
+    // The error's own text names the temporary file, which nobody asked for.
+    builder.tempfile_in(folder).map_err(|e| Error::write(path, e.kind().into()))
 }
 
 #[cfg(test)]

@@ -179,7 +179,9 @@ enum Refusal {
 /// The problems of a scene in the order of its text.
 pub(super) fn into_error(mut problems: Vec<Problem>) -> Error {
     problems.sort_by_key(|p| p.start);
-    Error::Scene(problems.into_iter().map(|p| p.diagnostic).collect())
+    let mut diagnostics: Vec<_> = problems.into_iter().map(|p| p.diagnostic).collect();
+    diagnostics.dedup();
+    Error::Scene(diagnostics)
 }
 
 /// The text of a file, or of standard input for `-`.

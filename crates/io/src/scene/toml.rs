@@ -99,10 +99,7 @@ impl<'a> Reader<'a> {
                 self.report(span, explain(error.message(), &[]).0, None);
                 break;
             };
-            // A field that was taken out before is missing only because of that.
-            let missing =
-                quoted(error.message(), "missing field ").map(|field| [&path[..], &[field.to_owned()]].concat());
-            if !missing.is_some_and(|field| removed.contains(&field)) {
+            if !follows(error.message(), &path, &removed) {
                 let (message, hint) = explain(error.message(), &path);
                 self.report(span, message, hint);
             }
@@ -116,20 +113,28 @@ impl<'a> Reader<'a> {
     /// Reports what is wrong with the scene as a whole, but for what follows from other mistakes.
     fn check(&mut self, desc: &SceneDesc, table: &Table<'_>, removed: &[Vec<String>]) {
         for problem in desc.check() {
-            let table_of = |path: &[String]| path[..path.len().saturating_sub(1)].to_vec();
             let follows = removed.iter().any(|path| {
-                let is_removed_material = path.first().is_some_and(|k| k == "material")
-                    && path.get(1).is_some_and(|name| problem.message.ends_with(&format!("no material `{name}`")));
-                is_removed_material || table_of(path) == table_of(&problem.path)
+                let is_material = path.len() <= 3 && path.first().is_some_and(|key| key == "material");
+                let name = path.get(1).map(|name| format!("there is no material `{name}`"));
+                *path == problem.path || is_material && name.is_some_and(|message| message == problem.message)
             });
             if follows || self.problems.len() >= MAX_PROBLEMS {
                 continue;
             }
             let span = merge::span_of(table, &problem.path).unwrap_or_default();
             let hint = nearest_material(desc, &problem).or(problem.hint);
-            self.report(span, problem.message + &place_name(&problem.path), hint);
+            let place = place_name(&problem.path);
+            let comma = if place.is_empty() { "" } else { "," };
+            self.report(span, format!("{}{comma}{place}", problem.message), hint);
         }
     }
+}
+
+/// Whether a mistake is there only because of what was taken out before: a field that is missing now, a kind that is.
+fn follows(message: &str, path: &[String], removed: &[Vec<String>]) -> bool {
+    let missing = quoted(message, "missing field ").map(|field| [path, &[field.to_owned()]].concat());
+    let no_kind = message.starts_with("wanted exactly 1 element");
+    removed.iter().any(|r| missing.as_ref() == Some(r) || no_kind && r.len() == path.len() + 1 && r.starts_with(path))
 }
 
 /// How deep the key lies that says the kind of a thing, if a path leads through one.
@@ -203,7 +208,8 @@ fn explain(message: &str, path: &[String]) -> (String, Option<String>) {
     ] {
         message = message.replace(rust, word);
     }
-    (message + &place, None)
+    let comma = if place.is_empty() || message.starts_with("missing") { "" } else { "," };
+    (format!("{message}{comma}{place}"), None)
 }
 
 /// What stands in backticks after a prefix.
@@ -234,7 +240,7 @@ fn nearest_material(desc: &SceneDesc, problem: &eyebeam_core::validate::Problem)
 fn place_name(path: &[String]) -> String {
     match path.iter().map(String::as_str).collect::<Vec<_>>()[..] {
         ["material", name, ..] => format!(" in material \"{name}\""),
-        ["shape", kind, ..] => format!(" in a {kind}"),
+        ["shape", kind, _, ..] => format!(" in a {kind}"),
         [table, _, ..] => format!(" in {table}"),
         _ => String::new(),
     }
