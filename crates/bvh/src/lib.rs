@@ -13,22 +13,21 @@
 //! let hit = bvh.intersect(&Ray::new(Vec3::new(0.0, 0.0, 5.0), Vec3::NEG_Z)).unwrap();
 //! assert_eq!((hit.t, hit.prim), (4.0, 0));
 //! ```
-#![forbid(unsafe_code)]
+#![deny(unsafe_op_in_unsafe_fn)]
 
 mod aabb;
 mod build;
-mod node;
-mod primitive;
-mod quad;
+mod bvh;
+mod filter;
 mod ray;
-mod sphere;
+mod search;
+mod shape;
+mod simd;
 mod traverse;
-mod triangle;
+mod wide;
 
 pub use aabb::Aabb;
-pub use primitive::Primitive;
-pub use quad::Quad;
+pub use bvh::Bvh;
 pub use ray::{Hit, Ray};
-pub use sphere::Sphere;
-pub use traverse::Bvh;
-pub use triangle::Triangle;
+pub use shape::{Primitive, Quad, Sphere, Triangle};
+pub use simd::Isa;

@@ -2,6 +2,8 @@
 
 use glam::{DVec3, Vec3};
 
+use crate::search::Slot;
+
 /// A half line from `o` along `d`, looked at for `0 < t <= t_max`.
 ///
 /// `d` need not be of unit length; `t` counts in multiples of it.
@@ -34,7 +36,7 @@ pub struct Hit {
     /// Second parameter: along `v` of a quad, weight of vertex `c` of a triangle, 0 on a sphere.
     pub v: f32,
     /// Where the tree keeps the primitive; for [`Bvh::primitive`](crate::Bvh::primitive).
-    pub(crate) slot: u32,
+    pub(crate) slot: Slot,
 }
 
 impl Hit {
@@ -43,7 +45,7 @@ impl Hit {
 
     /// Where a search up to `t_max` begins; loses against every hit at a finite distance.
     pub(crate) fn none(t_max: f32) -> Self {
-        Self { t: t_max.min(f32::MAX), prim: Self::NO_PRIM, u: 0.0, v: 0.0, slot: 0 }
+        Self { t: t_max.min(f32::MAX), prim: Self::NO_PRIM, u: 0.0, v: 0.0, slot: Slot::NONE }
     }
 }
 

@@ -1,142 +1,199 @@
-//! The hierarchy and the walk through it.
+//! The walk of a ray through the tree, written once for every kind of processor.
 
-use crate::aabb::Aabb;
-use crate::build::{MAX_DEPTH, build};
-use crate::node::{Child, Node, NodeRay};
-use crate::primitive::Primitive;
-use crate::ray::{Hit, Ray, RayF64};
+use std::mem::MaybeUninit;
 
-/// Primitives sorted for rays.
-#[derive(Clone, Debug)]
-pub struct Bvh {
-    /// Four-wide nodes, the root first; none if the primitives are a plain list.
-    nodes: Vec<Node>,
-    /// In the order of the leaves.
-    prims: Vec<Primitive>,
-    /// Index of each of `prims` in the list that the caller gave.
-    ids: Vec<u32>,
-    bounds: Aabb,
+use crate::build::MAX_DEPTH;
+use crate::bvh::Bvh;
+use crate::filter::{BoxLanes, RayLanes};
+use crate::ray::{Hit, Ray};
+use crate::search::{Search, Slot};
+use crate::simd::{Isa, LANES, Simd};
+use crate::wide::{Child, Kind, Node, Target, Tree};
+
+/// The nearest hit, on the best path that the processor has.
+#[inline]
+pub(crate) fn closest(bvh: &Bvh, ray: &Ray, isa: Isa) -> Option<Hit> {
+    match isa {
+        Isa::Scalar => walk::<_, false>(crate::simd::Scalar, bvh, ray),
+        #[cfg(target_arch = "x86_64")]
+        // SAFETY: detection has found that the processor has AVX2 and FMA.
+        Isa::Avx2 => match crate::simd::Avx2::detect() {
+            Some(avx2) => unsafe { walk_avx2::<false>(avx2, bvh, ray) },
+            None => walk::<_, false>(crate::simd::Scalar, bvh, ray),
+        },
+        #[cfg(target_arch = "aarch64")]
+        Isa::Neon => match crate::simd::Neon::detect() {
+            Some(neon) => walk::<_, false>(neon, bvh, ray),
+            None => walk::<_, false>(crate::simd::Scalar, bvh, ray),
+        },
+    }
 }
 
-impl Bvh {
-    /// Builds the tree, in O(n log n).
-    ///
-    /// # Panics
-    /// Above 2²⁷ primitives.
-    pub fn build(prims: Vec<Primitive>) -> Self {
-        let tree = build(&prims);
-        let sorted = tree.order.iter().map(|&i| prims[i as usize]).collect();
-        Self { nodes: tree.nodes, prims: sorted, ids: tree.order, bounds: tree.bounds }
-    }
+#[cfg(target_arch = "x86_64")]
+#[target_feature(enable = "avx2,fma")]
+fn walk_avx2<const ANY: bool>(s: crate::simd::Avx2, bvh: &Bvh, ray: &Ray) -> Option<Hit> {
+    walk::<_, ANY>(s, bvh, ray)
+}
 
-    /// Keeps the primitives as a list, every one of which is tested by every ray: the same hits in time O(n),
-    /// for comparison.
-    pub fn list(prims: Vec<Primitive>) -> Self {
-        let bounds = prims.iter().fold(Aabb::EMPTY, |b, p| b.union(p.bounds()));
-        let ids = (0..prims.len() as u32).collect();
-        Self { nodes: Vec::new(), prims, ids, bounds }
-    }
-
-    /// The box around everything; empty if there is nothing.
-    pub fn bounds(&self) -> Aabb {
-        self.bounds
-    }
-
-    /// The primitive that was hit.
-    #[inline]
-    pub fn primitive(&self, hit: &Hit) -> &Primitive {
-        &self.prims[hit.slot as usize]
-    }
-
-    /// The nearest hit with 0 < t ≤ `t_max`; of several at the same distance, the one of lowest index.
-    ///
-    /// A ray whose numbers are not finite hits nothing or something, but ends.
-    #[inline]
-    pub fn intersect(&self, ray: &Ray) -> Option<Hit> {
-        let mut search = Search { ray: RayF64::from(ray), nearest: Hit::none(ray.t_max) };
-        if self.nodes.is_empty() {
-            self.test_slots(0..self.prims.len(), &mut search);
-        } else {
-            self.walk(&NodeRay::from(ray), &mut search);
-        }
-        (search.nearest.prim != Hit::NO_PRIM).then_some(search.nearest)
-    }
-
-    /// Visits the nodes that the ray meets, near ones first.
-    fn walk(&self, ray: &NodeRay, search: &mut Search) {
-        let mut stack = [(0.0_f32, Child::ROOT); STACK];
-        let mut height = 0;
-        let mut next = Child::ROOT;
-        loop {
-            match next.unpack() {
-                Ok(slots) => self.test_slots(slots, search),
-                Err(index) => {
-                    let node = &self.nodes[index];
-                    let (near, met) = node.intersect(ray, search.nearest.t);
-                    let mut met = met.bitmask();
-                    let base = height;
-                    while met != 0 {
-                        let lane = met.trailing_zeros() as usize;
-                        met &= met - 1;
-                        let entry = (near[lane], node.child[lane]);
-                        // Insert so that the nearest lies on top.
-                        let mut at = height;
-                        while at > base && stack[at - 1].0 < entry.0 {
-                            stack[at] = stack[at - 1];
-                            at -= 1;
-                        }
-                        stack[at] = entry;
-                        height += 1;
-                    }
+/// Visits what the ray may meet, near things first.
+#[inline(always)]
+fn walk<S: Simd, const ANY: bool>(s: S, bvh: &Bvh, ray: &Ray) -> Option<Hit> {
+    let tree = &bvh.tree;
+    let (boxes, lanes) = (BoxLanes::new(s, ray, bvh.reach), RayLanes::new(s, ray));
+    let mut search = Search::new(ray);
+    let mut stack = Stack::new();
+    let mut next = tree.root;
+    loop {
+        let nearest = match next.target() {
+            Target::Node(index) => push_children(s, tree, &tree.nodes[index], &boxes, search.t_max(), &mut stack),
+            Target::Leaf(kind, block) => {
+                test_leaf(s, tree, kind, block, &lanes, &mut search);
+                if ANY && search.has_hit() {
+                    return search.hit();
                 }
+                None
             }
-            next = loop {
-                if height == 0 {
-                    return;
-                }
-                height -= 1;
-                let (t, child) = stack[height];
-                if t <= search.nearest.t * SLACK {
-                    break child;
-                }
-            };
+            Target::Nothing => None,
+        };
+        next = match nearest {
+            Some(child) => child,
+            None => match stack.pop(search.t_max()) {
+                Some(child) => child,
+                None => return search.hit(),
+            },
+        };
+    }
+}
+
+/// Puts the children that the ray may meet on the stack, the farthest first, but for the nearest, which it returns.
+#[inline(always)]
+fn push_children<S: Simd>(
+    s: S,
+    tree: &Tree,
+    node: &Node,
+    boxes: &BoxLanes<S>,
+    t_max: f32,
+    stack: &mut Stack,
+) -> Option<Child> {
+    let (near, mut met) = boxes.meets(s, &node.planes, t_max);
+    if met == 0 {
+        return None;
+    }
+    let mut take_lane = || {
+        let lane = met.trailing_zeros() as usize & (LANES - 1);
+        met &= met - 1;
+        (lane, met)
+    };
+    let (first, mut rest) = take_lane();
+    if rest == 0 {
+        return Some(node.child[first]);
+    }
+    let near = s.store(near);
+    let base = stack.height;
+    let mut lane = first;
+    loop {
+        let child = node.child[lane];
+        prefetch(s, tree, child);
+        stack.insert(base, Entry::new(near[lane], child));
+        if rest == 0 {
+            return stack.pop(f32::INFINITY);
         }
+        (lane, rest) = take_lane();
+    }
+}
+
+#[inline(always)]
+fn prefetch<S: Simd>(s: S, tree: &Tree, child: Child) {
+    match child.target() {
+        Target::Node(index) => s.prefetch(&tree.nodes, index),
+        Target::Leaf(Kind::Triangle, block) => s.prefetch(&tree.triangles, block),
+        Target::Leaf(Kind::Quad, block) => s.prefetch(&tree.quads, block),
+        Target::Leaf(Kind::Sphere, block) => s.prefetch(&tree.spheres, block),
+        Target::Nothing => {}
+    }
+}
+
+/// Tests a leaf: eight primitives at once roughly, those that may be met exactly.
+#[inline(always)]
+fn test_leaf<S: Simd>(s: S, tree: &Tree, kind: Kind, block: usize, lanes: &RayLanes<S>, search: &mut Search) {
+    let t_max = search.t_max();
+    let mut met = match kind {
+        Kind::Triangle => lanes.meets_corners::<false>(s, &tree.triangles[block], t_max),
+        Kind::Quad => lanes.meets_corners::<true>(s, &tree.quads[block], t_max),
+        Kind::Sphere => lanes.meets_spheres(s, &tree.spheres[block], t_max),
+    };
+    while met != 0 {
+        let lane = met.trailing_zeros() as usize & (LANES - 1);
+        met &= met - 1;
+        search.test(tree, Slot::new(kind, block, lane));
+    }
+}
+
+/// A child and the distance before which the ray is not in its box, in one number that sorts by distance.
+#[derive(Clone, Copy)]
+struct Entry(u64);
+
+impl Entry {
+    #[inline(always)]
+    fn new(t: f32, child: Child) -> Self {
+        Self(u64::from(t.to_bits()) << 32 | u64::from(child.bits()))
     }
 
-    #[inline]
-    fn test_slots(&self, slots: std::ops::Range<usize>, search: &mut Search) {
-        for slot in slots {
-            if let Some(hit) = self.prims[slot].intersect(&search.ray) {
-                search.offer(Hit {
-                    t: hit.t as f32,
-                    prim: self.ids[slot],
-                    u: hit.u as f32,
-                    v: hit.v as f32,
-                    slot: slot as u32,
-                });
+    #[inline(always)]
+    fn t(self) -> f32 {
+        f32::from_bits((self.0 >> 32) as u32)
+    }
+
+    #[inline(always)]
+    fn child(self) -> Child {
+        Child::from_bits(self.0 as u32)
+    }
+}
+
+/// What is still to be visited. A level of the tree leaves seven entries at most.
+struct Stack {
+    entries: [MaybeUninit<Entry>; 7 * MAX_DEPTH + 1],
+    height: usize,
+}
+
+impl Stack {
+    #[inline(always)]
+    fn new() -> Self {
+        Self { entries: [const { MaybeUninit::uninit() }; 7 * MAX_DEPTH + 1], height: 0 }
+    }
+
+    /// Puts an entry where it belongs among those above `base`, of which the nearest is on top.
+    #[inline(always)]
+    fn insert(&mut self, base: usize, entry: Entry) {
+        let mut at = self.height;
+        while at > base {
+            let below = self.get(at - 1);
+            if below.0 >= entry.0 {
+                break;
+            }
+            self.entries[at].write(below);
+            at -= 1;
+        }
+        self.entries[at].write(entry);
+        self.height += 1;
+    }
+
+    /// The entry on top that is not farther than `t_max`.
+    #[inline(always)]
+    fn pop(&mut self, t_max: f32) -> Option<Child> {
+        while self.height > 0 {
+            self.height -= 1;
+            let entry = self.get(self.height);
+            if entry.t() <= t_max {
+                return Some(entry.child());
             }
         }
+        None
     }
-}
 
-/// Each level of four-wide nodes leaves at most three entries behind, and takes the place of two binary levels.
-const STACK: usize = 3 * (MAX_DEPTH / 2 + 1) + 1;
-
-/// Entry distances are rounded; a box is skipped only if it is farther by more than that.
-const SLACK: f32 = 1.0 + 1e-6;
-
-/// A ray and the nearest hit so far.
-struct Search {
-    ray: RayF64,
-    nearest: Hit,
-}
-
-impl Search {
-    #[inline]
-    fn offer(&mut self, hit: Hit) {
-        let nearest = &mut self.nearest;
-        if hit.t < nearest.t || (hit.t == nearest.t && hit.prim < nearest.prim) {
-            *nearest = hit;
-        }
+    #[inline(always)]
+    fn get(&self, at: usize) -> Entry {
+        // SAFETY: entries below a height that the stack has had were written by `insert`.
+        unsafe { self.entries[at].assume_init() }
     }
 }

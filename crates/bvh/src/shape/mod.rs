@@ -1,10 +1,15 @@
 //! The closed set of shapes that rays are intersected with.
 
+mod quad;
+mod sphere;
+mod triangle;
+
 use crate::aabb::Aabb;
-use crate::quad::Quad;
 use crate::ray::{PrimHit, RayF64};
-use crate::sphere::Sphere;
-use crate::triangle::Triangle;
+
+pub use quad::Quad;
+pub use sphere::Sphere;
+pub use triangle::Triangle;
 
 /// A shape that a ray can hit.
 #[derive(Clone, Copy, Debug, PartialEq)]

@@ -1,0 +1,78 @@
+//! The hierarchy.
+
+use crate::aabb::Aabb;
+use crate::build::build;
+use crate::ray::{Hit, Ray};
+use crate::search::{Search, Slot};
+use crate::shape::Primitive;
+use crate::simd::{Isa, LANES};
+use crate::traverse::closest;
+use crate::wide::{Kind, Tree};
+
+/// Primitives sorted for rays.
+#[derive(Clone, Debug)]
+pub struct Bvh {
+    pub(crate) tree: Tree,
+    bounds: Aabb,
+    /// The largest coordinate of `bounds`, by size.
+    pub(crate) reach: f32,
+    isa: Isa,
+    /// Whether rays test everything instead of walking the tree.
+    is_list: bool,
+}
+
+impl Bvh {
+    /// Builds the tree, in O(n log n).
+    ///
+    /// # Panics
+    /// Above 2²⁷ primitives.
+    pub fn build(primitives: Vec<Primitive>) -> Self {
+        let (tree, bounds) = build(&primitives);
+        let reach = if primitives.is_empty() { 0.0 } else { bounds.lo.abs().max(bounds.hi.abs()).max_element() };
+        Self { tree, bounds, reach, isa: Isa::detect(), is_list: false }
+    }
+
+    /// As [`build`](Self::build), but every ray tests every primitive: the same hits in time O(n), for comparison.
+    pub fn list(primitives: Vec<Primitive>) -> Self {
+        Self { is_list: true, ..Self::build(primitives) }
+    }
+
+    /// The same tree, walked with other instructions: the same hits, for comparison. What the processor lacks is not used.
+    pub fn with_isa(self, isa: Isa) -> Self {
+        Self { isa, ..self }
+    }
+
+    /// The box around everything; empty if there is nothing.
+    pub fn bounds(&self) -> Aabb {
+        self.bounds
+    }
+
+    /// The primitive that was hit.
+    #[inline]
+    pub fn primitive(&self, hit: &Hit) -> Primitive {
+        let (kind, block, lane) = hit.slot.unpack();
+        self.tree.primitive(kind, block, lane)
+    }
+
+    /// The nearest hit with 0 < t ≤ `t_max`; of several at the same distance, the one of lowest index.
+    ///
+    /// A ray whose numbers are not finite hits nothing or something, but ends.
+    #[inline]
+    pub fn intersect(&self, ray: &Ray) -> Option<Hit> {
+        if self.is_list { self.intersect_all(ray) } else { closest(self, ray, self.isa) }
+    }
+
+    fn intersect_all(&self, ray: &Ray) -> Option<Hit> {
+        let mut search = Search::new(ray);
+        let tree = &self.tree;
+        let counts = [(Kind::Triangle, tree.triangles.len()), (Kind::Quad, tree.quads.len()), (Kind::Sphere, tree.spheres.len())];
+        for (kind, count) in counts {
+            for (block, lane) in (0..count).flat_map(|block| (0..LANES).map(move |lane| (block, lane))) {
+                if tree.id(kind, block, lane) != Hit::NO_PRIM {
+                    search.test(tree, Slot::new(kind, block, lane));
+                }
+            }
+        }
+        search.hit()
+    }
+}
