@@ -39,9 +39,4 @@ impl Aabb {
         let e = (self.hi - self.lo).max(Vec3::ZERO);
         e.x * e.y + e.y * e.z + e.z * e.x
     }
-
-    /// Twice the centre.
-    pub(crate) fn centroid_twice(self) -> Vec3 {
-        self.lo + self.hi
-    }
 }

@@ -65,7 +65,11 @@ impl Bvh {
     fn intersect_all(&self, ray: &Ray) -> Option<Hit> {
         let mut search = Search::new(ray);
         let tree = &self.tree;
-        let counts = [(Kind::Triangle, tree.triangles.len()), (Kind::Quad, tree.quads.len()), (Kind::Sphere, tree.spheres.len())];
+        let counts = [
+            (Kind::Triangle, tree.triangles.len()),
+            (Kind::Quad, tree.quads.len()),
+            (Kind::Sphere, tree.spheres.len()),
+        ];
         for (kind, count) in counts {
             for (block, lane) in (0..count).flat_map(|block| (0..LANES).map(move |lane| (block, lane))) {
                 if tree.id(kind, block, lane) != Hit::NO_PRIM {

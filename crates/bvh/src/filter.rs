@@ -49,14 +49,14 @@ impl<S: Simd> RayLanes<S> {
         let slack = s.mul(reach, s.splat(ROUNDING * self.d_max * block.size));
         let least = s.sub(s.splat(0.0), slack);
         let most = s.mul_add(s.splat(2.0), slack, det);
-        let inside = if QUAD { s.le(u, most) & s.le(v, most) } else { s.le(s.add(u, v), most) };
-        let met = s.le(least, u) & s.le(least, v) & inside;
+        let inside = if QUAD { s.not_gt(u, most) & s.not_gt(v, most) } else { s.not_gt(s.add(u, v), most) };
+        let met = block.used & s.not_gt(least, u) & s.not_gt(least, v) & inside;
         if met == 0 {
             return 0;
         }
         let slack_t = s.mul(s.mul(reach, reach), s.splat(2.0 * ROUNDING * block.size));
-        let ahead = s.le(s.sub(s.splat(0.0), slack_t), t);
-        met & ahead & s.le(t, s.mul_add(det, s.splat(t_max), slack_t))
+        let ahead = s.not_gt(s.sub(s.splat(0.0), slack_t), t);
+        met & ahead & s.not_gt(t, s.mul_add(det, s.splat(t_max), slack_t))
     }
 
     /// Lanes with a sphere that the ray may meet before `t_max`.
@@ -71,16 +71,16 @@ impl<S: Simd> RayLanes<S> {
         // |c − o|² |d|² − ((c − o) · d)² ≤ r² |d|²
         let slack = s.mul(distance_sq, s.splat(ROUNDING));
         let off_axis = s.mul_sub(distance_sq, d_sq, s.mul(along, along));
-        let met = s.le(off_axis, s.mul(s.add(r_sq, slack), d_sq));
+        let met = block.used & s.not_gt(off_axis, s.mul(s.add(r_sq, slack), d_sq));
         if met == 0 {
             return 0;
         }
         let reach = s.max(s.abs(to_center[0]), s.max(s.abs(to_center[1]), s.abs(to_center[2])));
         let slack_along = s.mul(s.add(reach, r), s.splat(ROUNDING * self.d_max));
-        let ahead = s.le(s.sub(s.splat(0.0), slack_along), along) | s.le(distance_sq, s.add(r_sq, slack));
+        let ahead = s.not_gt(s.sub(s.splat(0.0), slack_along), along) | s.not_gt(distance_sq, s.add(r_sq, slack));
         // The near side is at most a radius before the middle of the chord; |d| ≤ √3 of its largest component.
         let near = s.sub(along, s.mul_add(r, s.splat(1.75 * self.d_max), slack_along));
-        met & ahead & s.le(near, s.mul(s.splat(t_max), d_sq))
+        met & ahead & s.not_gt(near, s.mul(s.splat(t_max), d_sq))
     }
 }
 
@@ -113,16 +113,20 @@ impl<S: Simd> BoxLanes<S> {
     /// moved by more than that, once for all boxes.
     #[inline(always)]
     pub(crate) fn new(s: S, ray: &Ray, reach: f32) -> Self {
-        /// A direction of 0 counts as this share of the longest: finite inverses keep NaN out.
-        const TINY: f32 = 1e-18;
+        /// A direction of 0 counts as this share of the longest: finite inverses keep NaN out. By the slack below, boxes
+        /// are still wide enough for rays that run along them.
+        const TINY: f32 = 1e-12;
         let tiny = TINY * ray.d.abs().max_element();
-        let (mut d_inv, mut near, mut far) = ([0.0; 3], [0.0; 3], [0.0; 3]);
+        let (mut d_inv, mut near, mut far) = ([0.0; 3], [f32::NEG_INFINITY; 3], [f32::INFINITY; 3]);
         for axis in 0..3 {
             let (o, d) = (ray.o[axis], ray.d[axis]);
             d_inv[axis] = 1.0 / if d.abs() < tiny { tiny.copysign(d) } else { d };
-            let slack = 2.5 * f32::EPSILON * (reach + o.abs()) * d_inv[axis].abs();
-            near[axis] = -o * d_inv[axis] - slack;
-            far[axis] = -o * d_inv[axis] + slack;
+            let farthest = (reach + o.abs()) * d_inv[axis].abs();
+            // Beyond the range of the numbers, an axis rules nothing out.
+            if farthest < f32::MAX {
+                near[axis] = -o * d_inv[axis] - 2.5 * f32::EPSILON * farthest;
+                far[axis] = -o * d_inv[axis] + 2.5 * f32::EPSILON * farthest;
+            }
         }
         Self {
             d_inv: d_inv.map(|x| s.splat(x)),
@@ -135,11 +139,13 @@ impl<S: Simd> BoxLanes<S> {
     /// Distances before which the ray is not in the boxes, and which of them it may meet before `t_max`.
     #[inline(always)]
     pub(crate) fn meets(&self, s: S, planes: &[[[f32; LANES]; 3]; 2], t_max: f32) -> (S::F32, u32) {
-        let cross = |end: usize, axis: usize, offset: S::F32| s.mul_add(s.load(&planes[end & 1][axis]), self.d_inv[axis], offset);
+        let cross = |end: usize, axis: usize, offset: S::F32| {
+            s.mul_add(s.load(&planes[end & 1][axis]), self.d_inv[axis], offset)
+        };
         let enter = [0, 1, 2].map(|axis| cross(self.negative[axis], axis, self.near[axis]));
         let leave = [0, 1, 2].map(|axis| cross(1 - self.negative[axis], axis, self.far[axis]));
         let near = s.max(s.max(enter[0], enter[1]), s.max(enter[2], s.splat(0.0)));
         let far = s.min(s.min(leave[0], leave[1]), s.min(leave[2], s.splat(t_max)));
-        (near, s.le(near, far))
+        (near, s.not_gt(near, far))
     }
 }

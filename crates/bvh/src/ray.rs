@@ -2,6 +2,7 @@
 
 use glam::{DVec3, Vec3};
 
+use crate::aabb::Aabb;
 use crate::search::Slot;
 
 /// A half line from `o` along `d`, looked at for `0 < t <= t_max`.
@@ -57,11 +58,42 @@ impl Hit {
 pub(crate) struct RayF64 {
     pub(crate) o: DVec3,
     pub(crate) d: DVec3,
+    /// The largest component of `d` by size.
+    pub(crate) d_max: f64,
+}
+
+impl RayF64 {
+    /// The distance at which the ray enters a box, if it meets it.
+    ///
+    /// Boxes in the tree are tested in single precision, wider by more than that loses, so a box that is met here is met
+    /// there, and no later.
+    #[inline]
+    pub(crate) fn enters(&self, bounds: Aabb) -> Option<f64> {
+        /// Wider by the least that counts, so that rays along a face are inside.
+        const PADDING: f64 = 1e-14;
+        let (mut near, mut far) = (0.0_f64, f64::INFINITY);
+        for axis in 0..3 {
+            let (o, d) = (self.o[axis], self.d[axis]);
+            let (lo, hi) = (f64::from(bounds.lo[axis]), f64::from(bounds.hi[axis]));
+            let padding = PADDING * (lo.abs().max(hi.abs()) + o.abs());
+            let (lo, hi) = (lo - padding - o, hi + padding - o);
+            if d == 0.0 {
+                if lo > 0.0 || hi < 0.0 {
+                    return None;
+                }
+            } else {
+                near = near.max((lo / d).min(hi / d));
+                far = far.min((lo / d).max(hi / d));
+            }
+        }
+        (near <= far).then_some(near)
+    }
 }
 
 impl From<&Ray> for RayF64 {
     fn from(ray: &Ray) -> Self {
-        Self { o: ray.o.as_dvec3(), d: ray.d.as_dvec3() }
+        let d = ray.d.as_dvec3();
+        Self { o: ray.o.as_dvec3(), d, d_max: d.abs().max_element() }
     }
 }
 

@@ -51,13 +51,20 @@ impl Search {
     }
 
     /// Tests a primitive; of hits at the same distance, that of the lowest index counts.
+    ///
+    /// A hit outside the primitive's box, as a badly conditioned intersection may claim it, would be found or not found
+    /// depending on the tree. So there is no hit where the ray misses the box, and none before it enters the box.
     #[inline]
     pub(crate) fn test(&mut self, tree: &Tree, slot: Slot) {
         let (kind, block, lane) = slot.unpack();
-        let Some(hit) = tree.primitive(kind, block, lane).intersect(&self.ray) else {
+        let primitive = tree.primitive(kind, block, lane);
+        let Some(hit) = primitive.intersect(&self.ray).filter(|hit| hit.t as f32 <= self.nearest.t) else {
             return;
         };
-        let (t, prim) = (hit.t as f32, tree.id(kind, block, lane));
+        let Some(entry) = self.ray.enters(primitive.bounds()) else {
+            return;
+        };
+        let (t, prim) = (hit.t.max(entry) as f32, tree.id(kind, block, lane));
         let nearest = &self.nearest;
         // A distance may have been rounded to 0.
         if t > 0.0 && (t < nearest.t || (t == nearest.t && prim < nearest.prim)) {

@@ -72,9 +72,11 @@ fn plan_inner(left: &Plan, right: &Plan, area: f32, count: u32) -> Plan {
     let kind = left.kind.filter(|_| left.kind == right.kind);
     let (below, left_of_node) = share(LANES);
     let node = below + area * NODE_COST;
-    let leaf = if kind.is_some() && count as usize <= LANES { area * LEAF_COST } else { f32::INFINITY };
+    let leaf = area * LEAF_COST;
+    let may_be_leaf = kind.is_some() && count as usize <= LANES;
     let mut plan = Plan { cost: [0.0; LANES], choice: [Choice::Fewer; LANES], left_of_node, kind };
-    (plan.cost[0], plan.choice[0]) = if leaf <= node { (leaf, Choice::Leaf) } else { (node, Choice::Node) };
+    (plan.cost[0], plan.choice[0]) =
+        if may_be_leaf && leaf <= node { (leaf, Choice::Leaf) } else { (node, Choice::Node) };
     for places in 2..=LANES {
         let (cost, left_places) = share(places);
         let before = plan.cost[places - 2];
@@ -114,7 +116,8 @@ impl Collapse<'_> {
 
     fn emit_leaf(&mut self, index: usize, item: usize) -> Child {
         let items = &self.binary.items[item..item + self.binary.nodes[index].count as usize];
-        let bounds = items.iter().fold(Bounds::EMPTY, |b, item| b.union(self.primitives[item.prim as usize].bounds().into()));
+        let bounds =
+            items.iter().fold(Bounds::EMPTY, |b, item| b.union(self.primitives[item.prim as usize].bounds().into()));
         let primitives = items.iter().map(|item| (item.prim, self.primitives[item.prim as usize]));
         self.tree.push_leaf(primitives, bounds.longest_side())
     }

@@ -1,6 +1,7 @@
 //! The closed set of shapes that rays are intersected with.
 
 mod quad;
+mod span;
 mod sphere;
 mod triangle;
 

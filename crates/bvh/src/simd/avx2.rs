@@ -72,8 +72,8 @@ impl Simd for Avx2 {
         unsafe { _mm256_xor_ps(a, _mm256_and_ps(sign, _mm256_set1_ps(-0.0))) }
     }
     #[inline(always)]
-    fn le(self, a: __m256, b: __m256) -> u32 {
-        unsafe { _mm256_movemask_ps(_mm256_cmp_ps::<_CMP_LE_OQ>(a, b)) as u32 }
+    fn not_gt(self, a: __m256, b: __m256) -> u32 {
+        unsafe { _mm256_movemask_ps(_mm256_cmp_ps::<_CMP_NGT_UQ>(a, b)) as u32 }
     }
     #[inline(always)]
     fn prefetch<T>(self, list: &[T], index: usize) {

@@ -41,8 +41,8 @@ pub(crate) trait Simd: Copy {
     fn abs(self, a: Self::F32) -> Self::F32;
     /// `a`, negated where `sign` is negative.
     fn flip(self, a: Self::F32, sign: Self::F32) -> Self::F32;
-    /// Bit i: a ≤ b in lane i; false for NaN.
-    fn le(self, a: Self::F32, b: Self::F32) -> u32;
+    /// Bit i: not a > b in lane i, so set for NaN: what cannot be compared is not ruled out.
+    fn not_gt(self, a: Self::F32, b: Self::F32) -> u32;
     /// Says that an element of a list will be read soon.
     fn prefetch<T>(self, list: &[T], index: usize);
 }

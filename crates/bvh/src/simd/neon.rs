@@ -84,9 +84,9 @@ impl Simd for Neon {
         })
     }
     #[inline(always)]
-    fn le(self, a: F32, b: F32) -> u32 {
+    fn not_gt(self, a: F32, b: F32) -> u32 {
         const BITS: [u32; 4] = [1, 2, 4, 8];
-        let half = |i: usize| unsafe { vaddvq_u32(vandq_u32(vcleq_f32(a[i], b[i]), vld1q_u32(BITS.as_ptr()))) };
+        let half = |i: usize| unsafe { vaddvq_u32(vbicq_u32(vld1q_u32(BITS.as_ptr()), vcgtq_f32(a[i], b[i]))) };
         half(0) | half(1) << 4
     }
     #[inline(always)]

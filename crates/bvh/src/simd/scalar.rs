@@ -65,8 +65,8 @@ impl Simd for Scalar {
         each(|i| f32::from_bits(a[i].to_bits() ^ (sign[i].to_bits() & 0x8000_0000)))
     }
     #[inline(always)]
-    fn le(self, a: F32, b: F32) -> u32 {
-        (0..LANES).map(|i| u32::from(a[i] <= b[i]) << i).sum()
+    fn not_gt(self, a: F32, b: F32) -> u32 {
+        (0..LANES).map(|i| u32::from(!(a[i] > b[i])) << i).sum()
     }
     #[inline(always)]
     fn prefetch<T>(self, _: &[T], _: usize) {}

@@ -1,4 +1,4 @@
-//! Leaves: eight primitives of one kind, lane by lane. Unused lanes hold NaN, which meets nothing.
+//! Leaves: eight primitives of one kind, lane by lane. The lanes in use come first.
 
 use glam::Vec3;
 
@@ -14,11 +14,13 @@ pub(crate) struct CornerBlock {
     pub(crate) id: [u32; LANES],
     /// The longest side of the box around all of them.
     pub(crate) size: f32,
+    /// Bit i: lane i is in use.
+    pub(crate) used: u32,
 }
 
 impl CornerBlock {
     pub(super) fn new(primitives: impl Iterator<Item = (u32, Primitive)>, size: f32) -> Self {
-        let mut block = Self { corner: [[[f32::NAN; LANES]; 3]; 3], id: [u32::MAX; LANES], size };
+        let mut block = Self { corner: [[[0.0; LANES]; 3]; 3], id: [u32::MAX; LANES], size, used: 0 };
         for (lane, (id, primitive)) in primitives.take(LANES).enumerate() {
             let corners = match primitive {
                 Primitive::Triangle(t) => [t.a, t.b, t.c],
@@ -26,6 +28,7 @@ impl CornerBlock {
                 Primitive::Sphere(_) => continue,
             };
             block.id[lane] = id;
+            block.used |= 1 << lane;
             for (corner, value) in block.corner.iter_mut().zip(corners) {
                 (0..3).for_each(|axis| corner[axis][lane] = value[axis]);
             }
@@ -46,15 +49,17 @@ pub(crate) struct SphereBlock {
     pub(crate) center: [[f32; LANES]; 3],
     pub(crate) radius: [f32; LANES],
     pub(crate) id: [u32; LANES],
+    /// Bit i: lane i is in use.
+    pub(crate) used: u32,
 }
 
 impl SphereBlock {
     pub(super) fn new(primitives: impl Iterator<Item = (u32, Primitive)>) -> Self {
-        let mut block =
-            Self { center: [[f32::NAN; LANES]; 3], radius: [f32::NAN; LANES], id: [u32::MAX; LANES] };
+        let mut block = Self { center: [[0.0; LANES]; 3], radius: [0.0; LANES], id: [u32::MAX; LANES], used: 0 };
         for (lane, (id, primitive)) in primitives.take(LANES).enumerate() {
             if let Primitive::Sphere(sphere) = primitive {
                 block.id[lane] = id;
+                block.used |= 1 << lane;
                 block.radius[lane] = sphere.radius;
                 (0..3).for_each(|axis| block.center[axis][lane] = sphere.center[axis]);
             }

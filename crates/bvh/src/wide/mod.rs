@@ -21,13 +21,7 @@ pub(crate) struct Tree {
 impl Tree {
     /// A tree without primitives.
     pub(crate) fn empty() -> Self {
-        Self {
-            root: Child::NONE,
-            nodes: Vec::new(),
-            triangles: Vec::new(),
-            quads: Vec::new(),
-            spheres: Vec::new(),
-        }
+        Self { root: Child::NONE, nodes: Vec::new(), triangles: Vec::new(), quads: Vec::new(), spheres: Vec::new() }
     }
 
     /// Appends a leaf of primitives of one kind, eight at most, in a box whose longest side is `size`.
