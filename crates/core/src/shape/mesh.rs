@@ -61,7 +61,5 @@ impl ShapeDesc for MeshDesc {
 #[inline]
 pub(super) fn point(triangle: &Triangle, hit: &Hit) -> SurfacePoint {
     let (a, b, c) = (triangle.a.as_dvec3(), triangle.b.as_dvec3(), triangle.c.as_dvec3());
-    let along_b = (b - a) * f64::from(hit.u);
-    let along_c = (c - a) * f64::from(hit.v);
-    SurfacePoint::on_plane(a + along_b + along_c, [triangle.b - triangle.a, triangle.c - triangle.a])
+    SurfacePoint::on_plane(a, [b - a, c - a], hit)
 }

@@ -54,7 +54,5 @@ impl ShapeDesc for QuadDesc {
 
 #[inline]
 pub(super) fn point(quad: &Quad, hit: &Hit) -> SurfacePoint {
-    let along_u = quad.u.as_dvec3() * f64::from(hit.u);
-    let along_v = quad.v.as_dvec3() * f64::from(hit.v);
-    SurfacePoint::on_plane(quad.corner.as_dvec3() + along_u + along_v, [quad.u, quad.v])
+    SurfacePoint::on_plane(quad.corner.as_dvec3(), [quad.u.as_dvec3(), quad.v.as_dvec3()], hit)
 }

@@ -50,5 +50,6 @@ pub(super) fn point(sphere: &Sphere, ray: &Ray, hit: &Hit) -> SurfacePoint {
     let center = sphere.center.as_dvec3();
     let on_ray = ray.o.as_dvec3() + ray.d.as_dvec3() * f64::from(hit.t);
     let n = (on_ray - center).normalize();
-    SurfacePoint::rounded(center + n * f64::from(sphere.radius), n.as_vec3())
+    let radius = f64::from(sphere.radius);
+    SurfacePoint::rounded(center + n * radius, center.abs().max_element() + radius, n.as_vec3())
 }
