@@ -71,7 +71,11 @@ impl CameraDesc {
                 "`look_from` and `look_at` are the same point, so the camera looks nowhere",
                 Some("move one of them".to_owned()),
             );
-        } else if (at - from).normalize_or_zero().cross(up.normalize_or_zero()).length() < 1e-6 && up != Vec3::ZERO {
+        } else if from.is_finite()
+            && at.is_finite()
+            && up != Vec3::ZERO
+            && (at - from).normalize_or_zero().cross(up.normalize_or_zero()).length() < 1e-6
+        {
             c.problem("up", "`up` points along the line of sight", Some("try up = [0, 0, 1]".to_owned()));
         }
         if let Some(aperture) = self.aperture.filter(|&a| a != 0.0) {

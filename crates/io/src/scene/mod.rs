@@ -1,5 +1,6 @@
 //! Scene files.
 
+mod explain;
 mod merge;
 mod source;
 mod toml;
