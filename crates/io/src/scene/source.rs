@@ -11,8 +11,8 @@ use toml::de::{DeTable, DeValue};
 
 use crate::error::{Diagnostic, Error, Place};
 
-/// Longer scene files are refused; geometry of that size belongs into mesh files.
-const MAX_BYTES: u64 = 256 << 20;
+/// Longer scenes are refused: reading takes up to ninety times as much memory.
+const MAX_BYTES: u64 = 64 << 20;
 /// Files that include files that include files.
 const MAX_INCLUDE_DEPTH: usize = 16;
 /// Files of a scene; one counts as often as it is included.

@@ -20,8 +20,8 @@ use crate::scene::explain::{
 use crate::scene::merge::{self, Table};
 use crate::scene::source::{Problem, Sources, into_error};
 
-/// More mistakes than this are not worth a list.
-const MAX_PROBLEMS: usize = 100;
+/// More mistakes than this are not worth a list, nor the time: each costs a walk through the scene.
+const MAX_PROBLEMS: usize = 20;
 /// Keys of a `-D` setting; as deep as files may nest.
 const MAX_KEYS: usize = 80;
 
