@@ -17,6 +17,7 @@ use glam::{Vec2, Vec3};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
+use crate::array::array;
 use crate::sampler::Sampler;
 use crate::sampling::uniform_disk;
 use crate::validate::Checker;
@@ -26,10 +27,13 @@ use crate::validate::Checker;
 #[serde(deny_unknown_fields, default)]
 pub struct CameraDesc {
     /// The eye, metres.
+    #[serde(deserialize_with = "array")]
     pub look_from: [f32; 3],
     /// A point in the middle of the picture, metres.
+    #[serde(deserialize_with = "array")]
     pub look_at: [f32; 3],
     /// What is upwards in the picture.
+    #[serde(deserialize_with = "array")]
     pub up: [f32; 3],
     /// Vertical field of view, degrees, 0..180.
     #[schemars(range(min = 0.001, max = 179.0))]

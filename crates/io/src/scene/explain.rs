@@ -26,6 +26,9 @@ pub(super) fn explain(message: &str, path: &[String]) -> (String, Option<String>
     let place = place_name(path);
     for (prefix, noun) in [("unknown field ", "field"), ("unknown variant ", "kind")] {
         if let Some(name) = quoted(message, prefix) {
+            if name.starts_with("$__toml") {
+                return (format!("a date has no place here{place}"), None);
+            }
             let (_, known) = message.rsplit_once("`, expected ").unwrap_or_default();
             let known: Vec<_> = known.split('`').skip(1).step_by(2).collect();
             return (format!("unknown {noun} `{name}`{place}"), did_you_mean(name, &known));

@@ -2,6 +2,7 @@
 
 mod explain;
 mod merge;
+mod nesting;
 mod source;
 mod toml;
 

@@ -10,6 +10,7 @@ use toml::Spanned;
 use toml::de::{DeTable, DeValue};
 
 use crate::error::{Diagnostic, Error, Place};
+use crate::scene::nesting;
 
 /// Longer scenes are refused: reading takes up to ninety times as much memory.
 const MAX_BYTES: u64 = 64 << 20;
@@ -92,13 +93,15 @@ impl Sources {
         open: &mut Vec<PathBuf>,
     ) -> Result<usize, Error> {
         let (table, errors) = DeTable::parse_recoverable(&text);
-        let names: Vec<(Range<usize>, String)> = match table.get_ref().get("include").map(Spanned::get_ref) {
+        let mut root = DeValue::Table(table.into_inner());
+        let too_deep = nesting::cut(&mut root);
+        let names: Vec<(Range<usize>, String)> = match root.get("include").map(Spanned::get_ref) {
             Some(DeValue::Array(names)) => {
                 names.iter().filter_map(|n| Some((n.span(), n.get_ref().as_str()?.to_owned()))).collect()
             }
             _ => Vec::new(),
         };
-        let is_valid = errors.is_empty();
+        let is_valid = errors.is_empty() && too_deep.is_none();
         let index = self.add(name, text.clone());
         let base = self.texts[index].base;
         for error in errors {
@@ -108,6 +111,9 @@ impl Sources {
                 message += &format!(" `{key}`");
             }
             self.report(start + base..end + base, message, None);
+        }
+        if let Some(Range { start, end }) = too_deep {
+            self.report(start + base..end + base, "nested too deeply".to_owned(), None);
         }
         for (span, name) in names.into_iter().filter(|_| is_valid) {
             match self.include(&name, folder, open) {

@@ -18,12 +18,11 @@ use crate::scene::explain::{
     MISSING_MATERIAL, explain, lacks_kind, missing_material, nearest_material, place_name, quoted,
 };
 use crate::scene::merge::{self, Table};
+use crate::scene::nesting::{self, MAX_DEPTH};
 use crate::scene::source::{Problem, Sources, into_error};
 
 /// More mistakes than this are not worth a list, nor the time: each costs a walk through the scene.
 const MAX_PROBLEMS: usize = 20;
-/// Keys of a `-D` setting; as deep as files may nest.
-const MAX_KEYS: usize = 80;
 
 /// The description in the first of `sources`, changed by settings.
 pub(super) fn read(mut sources: Sources, overrides: &[Override]) -> Result<SceneDesc, Error> {
@@ -64,7 +63,7 @@ impl<'a> Reader<'a> {
     fn set(&mut self, table: &mut Table<'a>, setting: &'a Override, source: usize) {
         let base = self.sources.get(source).base;
         let value_start = base + setting.path.len() + 1;
-        let value = match DeValue::parse(&setting.value) {
+        let mut value = match DeValue::parse(&setting.value) {
             Ok(value) => value,
             Err(_) => Spanned::new(0..setting.value.len(), DeValue::String(Cow::Borrowed(&setting.value))),
         };
@@ -77,7 +76,8 @@ impl<'a> Reader<'a> {
         let refuse = |message: &str| Err((message.to_owned(), "settings are key.key=value, as in -D camera.vfov=30"));
         let result = match keys[..] {
             [("include", _), ..] => Err(("`include` can only be said in the file".to_owned(), "include it there")),
-            _ if keys.len() > MAX_KEYS => refuse("the key is too long"),
+            _ if keys.len() > MAX_DEPTH => refuse("the key is too long"),
+            _ if nesting::cut(value.get_mut()).is_some() => refuse("the value is nested too deeply"),
             _ => {
                 if let Some(depth) = kind_depth(&setting.path) {
                     keep_only_kind(table, &keys[..=depth]);
