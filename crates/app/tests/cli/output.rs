@@ -26,7 +26,7 @@ fn what_cannot_be_written_is_found_before_rendering() {
     ] {
         let start = Instant::now();
         let run = place.run(&format!("{LONG} {args}")).ends_with(4);
-        assert!(start.elapsed() < Duration::from_secs(5), "{args} was found late");
+        assert!(start.elapsed() < Duration::from_secs(20), "{args} was found late");
         assert!(run.stderr.starts_with("error: cannot write `"), "{}", run.stderr);
     }
     assert!(place.files() == before, "something was written");

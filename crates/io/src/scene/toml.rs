@@ -154,7 +154,7 @@ struct Numbered<'a> {
 impl<'a> Numbered<'a> {
     fn new(table: Table<'a>) -> Self {
         // 0 is the table itself.
-        let mut spans = vec![0..0];
+        let mut spans = vec![Range::default()];
         let table = merge::map_spans(table, &mut |span| {
             spans.push(span);
             spans.len() - 1..spans.len()
