@@ -12,6 +12,8 @@ use std::fs;
 use std::io::Write;
 use std::path::{Path, PathBuf};
 use std::process::{Command, Output, Stdio};
+use std::thread::sleep;
+use std::time::{Duration, Instant};
 
 use serde_json::Value;
 use tempfile::TempDir;
@@ -71,6 +73,20 @@ impl Place {
 
     fn run(&self, args: &str) -> Run {
         Run::from(self.command(args).output().unwrap())
+    }
+
+    /// As [`run`](Self::run), for commands that say little; one that is not done in time is ended.
+    fn run_within(&self, limit: Duration, args: &str) -> Run {
+        let start = Instant::now();
+        let mut child = self.command(args).spawn().unwrap();
+        while child.try_wait().unwrap().is_none() {
+            if start.elapsed() > limit {
+                child.kill().unwrap();
+                panic!("{args} still runs after {limit:?}");
+            }
+            sleep(Duration::from_millis(10));
+        }
+        Run::from(child.wait_with_output().unwrap())
     }
 
     fn run_with_input(&self, args: &str, input: &str) -> Run {

@@ -1,7 +1,7 @@
 //! Files: whole or not at all, and refused before the work.
 
 use std::fs;
-use std::time::{Duration, Instant};
+use std::time::Duration;
 
 use crate::{Place, read_png};
 
@@ -24,9 +24,7 @@ fn what_cannot_be_written_is_found_before_rendering() {
         "--stats folder.png",
         "-o old.png --stats missing/a.json",
     ] {
-        let start = Instant::now();
-        let run = place.run(&format!("{LONG} {args}")).ends_with(4);
-        assert!(start.elapsed() < Duration::from_secs(20), "{args} was found late");
+        let run = place.run_within(Duration::from_secs(20), &format!("{LONG} {args}")).ends_with(4);
         assert!(run.stderr.starts_with("error: cannot write `"), "{}", run.stderr);
     }
     assert!(place.files() == before, "something was written");
@@ -43,7 +41,7 @@ fn a_folder_that_takes_no_files() {
     if fs::write(folder.join("probe"), "").is_ok() {
         return; // This user may write everywhere.
     }
-    let run = place.run(&format!("{LONG} -o closed/a.png")).ends_with(4);
+    let run = place.run_within(Duration::from_secs(20), &format!("{LONG} -o closed/a.png")).ends_with(4);
     assert_eq!(run.stderr, "error: cannot write `closed/a.png`: permission denied\n");
 }
 
