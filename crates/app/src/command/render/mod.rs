@@ -130,6 +130,8 @@ impl Session<'_> {
             let error = self.error.map(|e| e.mean);
             self.watched_step(&monitor, signals, &mut progress, error);
             monitor.pause.store(false, Relaxed);
+            // A short step ends before anything has looked.
+            progress.update(self.state(&monitor, error));
             if signals.take_write() {
                 self.error = self.render.film().error();
                 // What can be written later is not to be lost now.
