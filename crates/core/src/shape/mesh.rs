@@ -12,6 +12,7 @@ use glam::Vec3;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
+use crate::array::arrays;
 use crate::shape::{ShapeDesc, SurfacePoint};
 use crate::validate::Checker;
 
@@ -20,8 +21,10 @@ use crate::validate::Checker;
 #[serde(deny_unknown_fields)]
 pub struct MeshDesc {
     /// Vertices, metres.
+    #[serde(deserialize_with = "arrays")]
     pub vertices: Vec<[f32; 3]>,
     /// Three indices into `vertices` each. Triangles without area are never hit.
+    #[serde(deserialize_with = "arrays")]
     pub triangles: Vec<[u32; 3]>,
     /// Name of a material; grey matte if absent.
     #[serde(default)]
