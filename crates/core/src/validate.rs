@@ -55,8 +55,13 @@ impl Checker {
         }
     }
 
+    /// Whether a number is finite and not too large to be squared.
+    pub(crate) fn is_finite(value: f32) -> bool {
+        value.abs() <= Self::FARTHEST
+    }
+
     pub(crate) fn finite(&mut self, key: &str, values: &[f32]) {
-        let bad = values.iter().find(|v| !(v.is_finite() && v.abs() <= Self::FARTHEST));
+        let bad = values.iter().find(|&&v| !Self::is_finite(v));
         let message = || format!("`{key}` must be finite, not {}", bad.unwrap_or(&f32::NAN));
         self.require(bad.is_none(), key, message, "numbers up to 1e15 in size are allowed");
     }
