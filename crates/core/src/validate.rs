@@ -42,11 +42,16 @@ impl Checker {
         self.path.pop();
     }
 
+    /// A mesh can be wrong in millions of places; nobody reads more than this.
+    const MOST: usize = 1000;
+
     /// Notes a problem of the value at `key`.
     pub(crate) fn problem(&mut self, key: impl ToString, message: impl Into<String>, hint: Option<String>) {
-        let mut path = self.path.clone();
-        path.push(key.to_string());
-        self.problems.push(Problem { path, message: message.into(), hint });
+        if self.problems.len() < Self::MOST {
+            let mut path = self.path.clone();
+            path.push(key.to_string());
+            self.problems.push(Problem { path, message: message.into(), hint });
+        }
     }
 
     fn require(&mut self, holds: bool, key: &str, message: impl FnOnce() -> String, hint: &str) {
