@@ -165,16 +165,20 @@ fn halve(items: &mut [Item], bounds: Aabb) -> usize {
 fn flatten(binary: &Binary, nodes: &mut Vec<Node>) -> usize {
     let index = nodes.len();
     nodes.push(Node::new(&[]));
-    let children = match &binary.kind {
-        Kind::Leaf { .. } => vec![binary],
-        Kind::Inner(pair) => pair
-            .iter()
-            .flat_map(|child| match &child.kind {
-                Kind::Inner(grandchildren) => grandchildren.iter().collect(),
-                Kind::Leaf { .. } => vec![child],
-            })
-            .collect(),
-    };
+    let mut children = vec![binary];
+    while children.len() < 4 {
+        // The largest inner child makes way for its own.
+        let inner = |(i, child): (usize, &&Binary)| {
+            matches!(child.kind, Kind::Inner(_)).then_some((i, child.bounds.half_area()))
+        };
+        let Some((largest, _)) = children.iter().enumerate().filter_map(inner).max_by(|a, b| a.1.total_cmp(&b.1))
+        else {
+            break;
+        };
+        if let Kind::Inner(pair) = &children[largest].kind {
+            children.splice(largest..=largest, pair.iter());
+        }
+    }
     let children: Vec<_> = children
         .into_iter()
         .map(|b| match b.kind {
