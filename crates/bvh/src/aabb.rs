@@ -34,6 +34,16 @@ impl Aabb {
         Self { lo: self.lo.min(other.lo), hi: self.hi.max(other.hi) }
     }
 
+    /// Wider by the least that counts, so that a ray along a face, with a direction of 0 across it, is inside the box.
+    pub(crate) fn padded(self) -> Self {
+        /// Times the inverse of the smallest direction, this is longer than any ray.
+        const LEAST: f32 = 1e-18;
+        Self {
+            lo: Vec3::from_array(self.lo.to_array().map(|x| x.next_down().min(x - LEAST))),
+            hi: Vec3::from_array(self.hi.to_array().map(|x| x.next_up().max(x + LEAST))),
+        }
+    }
+
     /// Half the surface area, to which the chance that a ray meets the box is proportional; 0 if empty.
     pub fn half_area(self) -> f32 {
         let e = (self.hi - self.lo).max(Vec3::ZERO);

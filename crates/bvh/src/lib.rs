@@ -21,6 +21,7 @@ mod node;
 mod primitive;
 mod quad;
 mod ray;
+mod span;
 mod sphere;
 mod traverse;
 mod triangle;

@@ -5,13 +5,19 @@ use glam::{BVec4A, Vec3, Vec4};
 use crate::aabb::Aabb;
 use crate::ray::Ray;
 
-/// Widens the far end of a box interval by what its three roundings can have lost, so that a box is never
-/// missed by a ray that meets something in it (Ize 2013, Journal of Computer Graphics Techniques 2(2)).
-const ROBUST: f32 = 1.0 + 2.0 * GAMMA_3;
-const GAMMA_3: f32 = 3.0 * HALF_EPSILON / (1.0 - 3.0 * HALF_EPSILON);
+/// Widens the far end of a box interval by what rounding can have lost, so that a box is never missed by a ray that
+/// meets something in it: three roundings at either end, one here (after Ize 2013, Journal of Computer Graphics
+/// Techniques 2(2), which leaves out the last).
+const ROBUST: f32 = 1.0 + 8.0 * HALF_EPSILON;
 const HALF_EPSILON: f32 = f32::EPSILON * 0.5;
 
-/// A child: an inner node, or a run of primitives. 0 is the root's index, which is nobody's child.
+/// A correctly rounded distance of a hit is never below this multiple of the distance at which the ray enters its box.
+const BEHIND_ENTRY: f32 = 1.0 - 6.0 * HALF_EPSILON;
+
+/// A direction whose size is below this counts as this: finite inverses keep NaN out of the box test.
+const TINY: f32 = 1e-38;
+
+/// A child: an inner node, or a run of primitives.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) struct Child(u32);
 
@@ -20,6 +26,9 @@ impl Child {
     pub(crate) const MAX_SLOTS: usize = 1 << 27;
 
     pub(crate) const ROOT: Self = Self(0);
+
+    /// No primitives: a ray that is not finite may seem to meet a lane that is not used.
+    const NONE: Self = Self(1 << 31);
 
     pub(crate) fn node(index: usize) -> Self {
         Self(index as u32)
@@ -42,7 +51,7 @@ impl Child {
     }
 }
 
-/// Up to four children with their boxes, lane by lane; an unused lane has an empty box, which no ray hits.
+/// Up to four children with their boxes, lane by lane; an unused lane has an empty box, which no finite ray meets.
 #[derive(Clone, Debug)]
 pub(crate) struct Node {
     /// `[lo, hi][axis]` of the four boxes.
@@ -52,11 +61,11 @@ pub(crate) struct Node {
 
 impl Node {
     pub(crate) fn new(children: &[(Child, Aabb)]) -> Self {
-        let lane = |i: usize| children.get(i).map_or(Aabb::EMPTY, |c| c.1);
+        let lane = |i: usize| children.get(i).map_or(Aabb::EMPTY, |c| c.1.padded());
         let plane = |get: fn(&Aabb) -> Vec3, axis: usize| Vec4::from_array([0, 1, 2, 3].map(|i| get(&lane(i))[axis]));
         Self {
             planes: [[0, 1, 2].map(|axis| plane(|b| b.lo, axis)), [0, 1, 2].map(|axis| plane(|b| b.hi, axis))],
-            child: [0, 1, 2, 3].map(|i| children.get(i).map_or(Child::ROOT, |c| c.0)),
+            child: [0, 1, 2, 3].map(|i| children.get(i).map_or(Child::NONE, |c| c.0)),
         }
     }
 
@@ -80,10 +89,21 @@ pub(crate) struct NodeRay {
     negative: [usize; 3],
 }
 
+impl NodeRay {
+    /// What the tree makes of a distance `t` at which a primitive within `bounds` claims to be hit: no hit if the ray
+    /// misses the box, and not before it enters the box.
+    ///
+    /// The larger boxes around this one are met whenever it is, since rounding keeps order, and no later. So a search
+    /// through them never passes over a hit that went through here, however badly conditioned the intersection.
+    #[inline]
+    pub(crate) fn confirm(&self, t: f32, bounds: Aabb) -> Option<f32> {
+        let (near, met) = Node::new(&[(Child::NONE, bounds)]).intersect(self, f32::MAX);
+        met.test(0).then(|| t.max(near.x * BEHIND_ENTRY))
+    }
+}
+
 impl From<&Ray> for NodeRay {
     fn from(ray: &Ray) -> Self {
-        /// A direction of 0 counts as this: finite inverses keep NaN out of the box test.
-        const TINY: f32 = 1e-30;
         let inverse = |d: f32| 1.0 / if d.abs() < TINY { TINY.copysign(d) } else { d };
         Self {
             o: ray.o.to_array().map(Vec4::splat),

@@ -55,11 +55,14 @@ impl Hit {
 pub(crate) struct RayF64 {
     pub(crate) o: DVec3,
     pub(crate) d: DVec3,
+    /// The largest component of `d` by size.
+    pub(crate) d_max: f64,
 }
 
 impl From<&Ray> for RayF64 {
     fn from(ray: &Ray) -> Self {
-        Self { o: ray.o.as_dvec3(), d: ray.d.as_dvec3() }
+        let d = ray.d.as_dvec3();
+        Self { o: ray.o.as_dvec3(), d, d_max: d.abs().max_element() }
     }
 }
 

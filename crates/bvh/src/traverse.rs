@@ -53,17 +53,17 @@ impl Bvh {
     /// A ray whose numbers are not finite hits nothing or something, but ends.
     #[inline]
     pub fn intersect(&self, ray: &Ray) -> Option<Hit> {
-        let mut search = Search { ray: RayF64::from(ray), nearest: Hit::none(ray.t_max) };
+        let mut search = Search { ray: RayF64::from(ray), node_ray: NodeRay::from(ray), nearest: Hit::none(ray.t_max) };
         if self.nodes.is_empty() {
             self.test_slots(0..self.prims.len(), &mut search);
         } else {
-            self.walk(&NodeRay::from(ray), &mut search);
+            self.walk(&mut search);
         }
         (search.nearest.prim != Hit::NO_PRIM).then_some(search.nearest)
     }
 
     /// Visits the nodes that the ray meets, near ones first.
-    fn walk(&self, ray: &NodeRay, search: &mut Search) {
+    fn walk(&self, search: &mut Search) {
         let mut stack = [(0.0_f32, Child::ROOT); STACK];
         let mut height = 0;
         let mut next = Child::ROOT;
@@ -72,7 +72,7 @@ impl Bvh {
                 Ok(slots) => self.test_slots(slots, search),
                 Err(index) => {
                     let node = &self.nodes[index];
-                    let (near, met) = node.intersect(ray, search.nearest.t);
+                    let (near, met) = node.intersect(&search.node_ray, search.nearest.t);
                     let mut met = met.bitmask();
                     let entry = |lane: u32| (near[lane as usize], node.child[lane as usize]);
                     if met.is_power_of_two() {
@@ -110,14 +110,12 @@ impl Bvh {
     #[inline]
     fn test_slots(&self, slots: std::ops::Range<usize>, search: &mut Search) {
         for slot in slots {
-            if let Some(hit) = self.prims[slot].intersect(&search.ray) {
-                search.offer(Hit {
-                    t: hit.t as f32,
-                    prim: self.ids[slot],
-                    u: hit.u as f32,
-                    v: hit.v as f32,
-                    slot: slot as u32,
-                });
+            let prim = &self.prims[slot];
+            let Some(hit) = prim.intersect(&search.ray).filter(|hit| hit.t as f32 <= search.nearest.t) else {
+                continue;
+            };
+            if let Some(t) = search.node_ray.confirm(hit.t as f32, prim.bounds()) {
+                search.offer(Hit { t, prim: self.ids[slot], u: hit.u as f32, v: hit.v as f32, slot: slot as u32 });
             }
         }
     }
@@ -132,6 +130,7 @@ const SLACK: f32 = 1.0 + 1e-6;
 /// A ray and the nearest hit so far.
 struct Search {
     ray: RayF64,
+    node_ray: NodeRay,
     nearest: Hit,
 }
 
@@ -139,7 +138,8 @@ impl Search {
     #[inline]
     fn offer(&mut self, hit: Hit) {
         let nearest = &mut self.nearest;
-        if hit.t < nearest.t || (hit.t == nearest.t && hit.prim < nearest.prim) {
+        // A distance may have been rounded to 0.
+        if hit.t > 0.0 && (hit.t < nearest.t || (hit.t == nearest.t && hit.prim < nearest.prim)) {
             *nearest = hit;
         }
     }

@@ -54,6 +54,11 @@ impl Film {
     }
 
     /// The tiles, row by row.
+    pub fn tiles(&self) -> &[Tile] {
+        &self.tiles
+    }
+
+    /// The tiles, row by row, to add samples to.
     pub fn tiles_mut(&mut self) -> &mut [Tile] {
         &mut self.tiles
     }

@@ -12,6 +12,7 @@ use glam::Vec3;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
+use crate::array::arrays;
 use crate::shape::{ShapeDesc, SurfacePoint};
 use crate::validate::Checker;
 
@@ -20,8 +21,10 @@ use crate::validate::Checker;
 #[serde(deny_unknown_fields)]
 pub struct MeshDesc {
     /// Vertices, metres.
+    #[serde(deserialize_with = "arrays")]
     pub vertices: Vec<[f32; 3]>,
     /// Three indices into `vertices` each. Triangles without area are never hit.
+    #[serde(deserialize_with = "arrays")]
     pub triangles: Vec<[u32; 3]>,
     /// Name of a material; grey matte if absent.
     #[serde(default)]
@@ -61,7 +64,5 @@ impl ShapeDesc for MeshDesc {
 #[inline]
 pub(super) fn point(triangle: &Triangle, hit: &Hit) -> SurfacePoint {
     let (a, b, c) = (triangle.a.as_dvec3(), triangle.b.as_dvec3(), triangle.c.as_dvec3());
-    let along_b = (b - a) * f64::from(hit.u);
-    let along_c = (c - a) * f64::from(hit.v);
-    SurfacePoint::on_plane(a + along_b + along_c, [triangle.b - triangle.a, triangle.c - triangle.a])
+    SurfacePoint::on_plane(a, [b - a, c - a], hit)
 }

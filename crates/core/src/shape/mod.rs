@@ -74,17 +74,22 @@ impl SurfacePoint {
         }
     }
 
-    /// From a point that double precision knows to be on the surface: rounding it is the only error.
+    /// From a point that double precision has computed from lengths up to `reach`: rounding it to single precision is the
+    /// larger error, except where coordinates are near 0.
     #[inline]
-    fn rounded(p: DVec3, n: Vec3) -> Self {
+    fn rounded(p: DVec3, reach: f64, n: Vec3) -> Self {
+        /// What the point and the next intersection with the shape may be off, in double precision, relative to `reach`.
+        const DOUBLE: f64 = 16.0 * f64::EPSILON;
         let p = p.as_vec3();
-        Self { p, p_error: p.abs() * f32::EPSILON, n }
+        Self { p, p_error: p.abs() * f32::EPSILON + (DOUBLE * reach) as f32, n }
     }
 
-    /// From a point of the plane that two edges span.
+    /// From a point of the plane that two edges from `corner` span.
     #[inline]
-    fn on_plane(p: DVec3, edges: [Vec3; 2]) -> Self {
-        let n = edges[0].as_dvec3().cross(edges[1].as_dvec3()).normalize_or_zero().as_vec3();
-        Self::rounded(p, n)
+    fn on_plane(corner: DVec3, edges: [DVec3; 2], hit: &Hit) -> Self {
+        let n = edges[0].cross(edges[1]).normalize_or_zero().as_vec3();
+        let p = corner + edges[0] * f64::from(hit.u) + edges[1] * f64::from(hit.v);
+        let reach = corner.abs().max(edges[0].abs()).max(edges[1].abs()).max_element();
+        Self::rounded(p, reach, n)
     }
 }

@@ -13,6 +13,7 @@ use glam::Vec3;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
+use crate::array::array;
 use crate::shape::{ShapeDesc, SurfacePoint};
 use crate::validate::Checker;
 
@@ -21,10 +22,13 @@ use crate::validate::Checker;
 #[serde(deny_unknown_fields)]
 pub struct QuadDesc {
     /// A corner, metres.
+    #[serde(deserialize_with = "array")]
     pub corner: [f32; 3],
     /// Edge from the corner, metres.
+    #[serde(deserialize_with = "array")]
     pub u: [f32; 3],
     /// The other edge from the corner, metres.
+    #[serde(deserialize_with = "array")]
     pub v: [f32; 3],
     /// Name of a material; grey matte if absent.
     #[serde(default)]
@@ -54,7 +58,5 @@ impl ShapeDesc for QuadDesc {
 
 #[inline]
 pub(super) fn point(quad: &Quad, hit: &Hit) -> SurfacePoint {
-    let along_u = quad.u.as_dvec3() * f64::from(hit.u);
-    let along_v = quad.v.as_dvec3() * f64::from(hit.v);
-    SurfacePoint::on_plane(quad.corner.as_dvec3() + along_u + along_v, [quad.u, quad.v])
+    SurfacePoint::on_plane(quad.corner.as_dvec3(), [quad.u.as_dvec3(), quad.v.as_dvec3()], hit)
 }

@@ -12,6 +12,7 @@ use glam::Vec3;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
+use crate::array::array;
 use crate::shape::{ShapeDesc, SurfacePoint};
 use crate::validate::Checker;
 
@@ -20,7 +21,7 @@ use crate::validate::Checker;
 #[serde(deny_unknown_fields)]
 pub struct SphereDesc {
     /// Centre, metres.
-    #[serde(default)]
+    #[serde(default, deserialize_with = "array")]
     pub center: [f32; 3],
     /// Radius, metres, above 0. Large ones (1e5, for a ground) are as accurate as small ones.
     pub radius: f32,
@@ -50,5 +51,6 @@ pub(super) fn point(sphere: &Sphere, ray: &Ray, hit: &Hit) -> SurfacePoint {
     let center = sphere.center.as_dvec3();
     let on_ray = ray.o.as_dvec3() + ray.d.as_dvec3() * f64::from(hit.t);
     let n = (on_ray - center).normalize();
-    SurfacePoint::rounded(center + n * f64::from(sphere.radius), n.as_vec3())
+    let radius = f64::from(sphere.radius);
+    SurfacePoint::rounded(center + n * radius, center.abs().max_element() + radius, n.as_vec3())
 }

@@ -1,0 +1,10 @@
+//! The proofs of the crate: shapes against slow, independent arithmetic, the tree against the list, and closed surfaces
+//! that no ray leaves. Seeds are fixed, so a result never changes without the code.
+
+mod double;
+mod limits;
+mod random;
+mod reference;
+mod same_as_list;
+mod shapes;
+mod watertight;

@@ -1,0 +1,139 @@
+//! Scenes with a solution in closed form, within the noise that the film itself reports.
+
+use std::f64::consts::PI;
+
+use eyebeam_core::color::Rgb;
+use eyebeam_core::desc::SceneDesc;
+use eyebeam_core::film::Film;
+use eyebeam_core::light::{EnvironmentDesc, Gradient};
+use eyebeam_core::material::{MaterialDesc, Metal};
+use eyebeam_core::shape::QuadDesc;
+use eyebeam_core::testing::z_test;
+use glam::Vec3;
+
+use crate::setup::*;
+
+/// So narrow that every pixel looks at the same point.
+const NARROW: f32 = 0.01;
+
+/// Pixel by pixel and in larger blocks, by the error that the film reports.
+fn assert_luminance(film: &Film, expected: f64) {
+    let image = film.develop();
+    let error = standard_errors(film, image.width());
+    let mean = image.pixels().iter().map(|&p| f64::from(Rgb(p).luminance())).sum::<f64>() / image.pixels().len() as f64;
+    for block in [1, 4, image.width()] {
+        z_test(&image, |_, _| expected, &error, block).unwrap_or_else(|e| panic!("{mean}, not {expected}: {e}"));
+    }
+}
+
+/// Floor of albedo 0.8 around the origin, seen from the side.
+fn lit_floor(environment: EnvironmentDesc) -> SceneDesc {
+    let mut desc = scene(environment, matte(0.8), look([3.0, 0.4, 0.0], [0.0; 3], NARROW));
+    desc.shape.quad.push(floor(0.0, 1e3));
+    desc
+}
+
+/// ∫ lerp(bottom, top, (1 + cos θ) / 2) cos θ dω = π (bottom + top) / 2 + π (top − bottom) / 3.
+#[test]
+fn sky_over_a_floor() {
+    let (bottom, top) = (0.2, 1.7);
+    let sky = Gradient { bottom: Rgb::grey(bottom), top: Rgb::grey(top) };
+    let film = render(&lit_floor(EnvironmentDesc::Gradient(sky)), settings(16, 400, 2));
+    let (bottom, top) = (f64::from(bottom), f64::from(top));
+    assert_luminance(&film, f64::from(0.8_f32) * ((bottom + top) / 2.0 + (top - bottom) / 3.0));
+}
+
+/// Right below a ball of radius r at height h the irradiance is π L (r / h)².
+#[test]
+fn ball_over_a_floor() {
+    for (r, h) in [(0.5_f32, 1.0_f32), (0.3, 2.0)] {
+        let mut desc = lit_floor(DARK);
+        desc.material.insert("lamp".to_owned(), lamp(4.0));
+        desc.shape.sphere.push(sphere([0.0, h, 0.0], r));
+        desc.shape.sphere[0].material = Some("lamp".to_owned());
+        let film = render(&desc, settings(16, 1000, 2));
+        assert_luminance(&film, f64::from(0.8_f32) * 4.0 * f64::from(r / h).powi(2));
+    }
+}
+
+/// The form factor of a parallel rectangle above a point (Howell's catalogue, B-4, four times).
+#[test]
+fn rectangle_over_a_floor() {
+    let (half_x, half_z, h) = (0.7_f64, 1.2, 1.5);
+    let mut desc = lit_floor(DARK);
+    desc.material.insert("lamp".to_owned(), lamp(4.0));
+    let (x, y, z) = (half_x as f32, h as f32, half_z as f32);
+    let (u, v) = ([2.0 * x, 0.0, 0.0], [0.0, 0.0, 2.0 * z]);
+    desc.shape.quad.push(QuadDesc { corner: [-x, y, -z], u, v, material: Some("lamp".to_owned()) });
+    let (a, b) = (half_x / h, half_z / h);
+    let quarter = |a: f64, b: f64| a / a.hypot(1.0) * (b / a.hypot(1.0)).atan();
+    let form_factor = 4.0 / (2.0 * PI) * (quarter(a, b) + quarter(b, a));
+    let film = render(&desc, settings(16, 1000, 2));
+    assert_luminance(&film, f64::from(0.8_f32) * 4.0 * form_factor);
+}
+
+/// One edge shows only what shines; a lamp shines on the side of its normal, whatever the depth.
+#[test]
+fn lamps_shine_forwards() {
+    let mut desc = scene(DARK, lamp(2.5), look([0.0, 3.0, 0.0], [0.0; 3], 20.0));
+    desc.shape.quad.push(floor(0.0, 10.0));
+    for depth in [1, 50] {
+        assert_everywhere(&render(&desc, settings(8, 4, depth)), 2.5, 0.0, "from above");
+    }
+    desc.camera = look([0.0, -3.0, 0.0], [0.0; 3], 20.0);
+    assert_everywhere(&render(&desc, settings(8, 4, 50)), 0.0, 0.0, "from below");
+}
+
+#[test]
+fn one_edge_shows_only_what_shines() {
+    let mut desc = scene(WHITE, matte(1.0), look([0.0, 3.0, 0.0], [0.0; 3], 20.0));
+    assert_everywhere(&render(&desc, settings(8, 4, 1)), 1.0, 0.0, "sky");
+    assert_everywhere(&render(&desc, settings(8, 4, 0)), 0.0, 0.0, "no edge");
+    desc.shape.quad.push(floor(0.0, 10.0));
+    assert_everywhere(&render(&desc, settings(8, 4, 1)), 0.0, 0.0, "floor");
+}
+
+/// Share of the ball of radius r around a point at height c above the plane that is not below it.
+fn share_above(c: f64, r: f64) -> f64 {
+    let cap = (r - c).max(0.0);
+    1.0 - cap * cap * (3.0 * r - cap) / (4.0 * r.powi(3))
+}
+
+/// The integral of the lobe over all directions, by midpoints.
+fn integral(metal: &MaterialDesc, wo: Vec3) -> f64 {
+    const N: i32 = 1000;
+    let mut sum = 0.0;
+    for i in 0..N {
+        let z = 2.0 * (f64::from(i) + 0.5) / f64::from(N) - 1.0;
+        for j in 0..N {
+            let (sin, cos) = (2.0 * PI * (f64::from(j) + 0.5) / f64::from(N)).sin_cos();
+            let r = (1.0 - z * z).sqrt();
+            let wi = Vec3::new((r * cos) as f32, (r * sin) as f32, z as f32);
+            sum += f64::from(metal.bsdf().eval(wo, wi).to_rgb()[0]);
+        }
+    }
+    sum * 4.0 * PI / f64::from(N * N)
+}
+
+/// Rough metal in the furnace loses what falls below the surface and nothing else.
+#[test]
+fn rough_metal_loses_what_falls_below() {
+    for roughness in [0.3_f32, 0.7, 1.0] {
+        for height in [0.05_f32, 0.3, 1.0, 4.0] {
+            let metal = MaterialDesc::Metal(Metal { albedo: Rgb::grey(1.0), roughness });
+            let mut desc = scene(WHITE, metal.clone(), look([1.0, height, 0.0], [0.0; 3], NARROW));
+            desc.shape.quad.push(floor(0.0, 100.0));
+            let wo = Vec3::new(1.0, 0.0, height).normalize();
+            let expected = share_above(f64::from(wo.z), f64::from(roughness));
+            let integral = integral(&metal, wo);
+            assert!(
+                (integral - expected).abs() < 2e-3,
+                "roughness {roughness}, height {height}: {integral}, {expected}"
+            );
+            // Pixels may have lost nothing by chance, so the error is not the film's but that of counting.
+            let (image, samples) = (render(&desc, settings(8, 1000, 2)).develop(), 1000.0);
+            let error = (expected * (1.0 - expected) / samples).sqrt();
+            z_test(&image, |_, _| expected, |_, _| error, image.width()).unwrap();
+        }
+    }
+}

@@ -1,0 +1,9 @@
+//! Pictures whose every pixel is known beforehand, and pictures that must be the same bits. Seeds are fixed, so a result
+//! never changes without the code.
+
+mod analytic;
+mod determinism;
+mod error;
+mod furnace;
+mod offset;
+mod setup;

@@ -1,0 +1,104 @@
+//! Scenes and renders in few words.
+
+use std::num::NonZeroUsize;
+
+use eyebeam_core::camera::CameraDesc;
+use eyebeam_core::color::Rgb;
+use eyebeam_core::desc::SceneDesc;
+use eyebeam_core::film::{Film, Tile};
+use eyebeam_core::integrator::IntegratorKind;
+use eyebeam_core::light::{Constant, EnvironmentDesc, NoLight};
+use eyebeam_core::material::{Emissive, Lambertian, MaterialDesc};
+use eyebeam_core::render::{Monitor, Render, Settings};
+use eyebeam_core::scene::Scene;
+use eyebeam_core::shape::{MeshDesc, QuadDesc, SphereDesc};
+
+pub(crate) const DARK: EnvironmentDesc = EnvironmentDesc::None(NoLight {});
+pub(crate) const WHITE: EnvironmentDesc = EnvironmentDesc::Constant(Constant { radiance: Rgb([1.0; 3]) });
+
+/// A square picture.
+pub(crate) fn settings(side: u32, spp: u32, max_depth: u32) -> Settings {
+    let threads = NonZeroUsize::new(2).unwrap();
+    Settings { width: side, height: side, spp, max_depth, seed: 1, integrator: IntegratorKind::Weekend, threads }
+}
+
+pub(crate) fn finish(mut render: Render) -> Film {
+    while !render.is_done() {
+        render.step(&Monitor::default());
+    }
+    let film = render.film().clone();
+    assert_eq!(film.sample_counts().dropped, 0);
+    film
+}
+
+pub(crate) fn render(desc: &SceneDesc, settings: Settings) -> Film {
+    finish(Render::new(&Scene::build(desc).unwrap(), settings))
+}
+
+/// Standard error of each pixel, row by row.
+pub(crate) fn standard_errors(film: &Film, width: u32) -> impl Fn(u32, u32) -> f64 + use<> {
+    let mut errors = vec![0.0; film.develop().pixels().len()];
+    for (pixel, sum) in film.tiles().iter().flat_map(Tile::pixels) {
+        errors[(pixel.y * width + pixel.x) as usize] = sum.standard_error().unwrap();
+    }
+    move |x, y| errors[(y * width + x) as usize]
+}
+
+/// A scene with the one material `it`.
+pub(crate) fn scene(environment: EnvironmentDesc, it: MaterialDesc, camera: CameraDesc) -> SceneDesc {
+    SceneDesc { environment, camera, material: [("it".to_owned(), it)].into(), ..SceneDesc::default() }
+}
+
+pub(crate) fn look(from: [f32; 3], at: [f32; 3], vfov: f32) -> CameraDesc {
+    let up = if from[0] == at[0] && from[2] == at[2] { [0.0, 0.0, 1.0] } else { [0.0, 1.0, 0.0] };
+    CameraDesc { look_from: from, look_at: at, up, vfov, ..CameraDesc::default() }
+}
+
+pub(crate) fn matte(albedo: f32) -> MaterialDesc {
+    MaterialDesc::Lambertian(Lambertian { albedo: Rgb::grey(albedo) })
+}
+
+pub(crate) fn lamp(radiance: f32) -> MaterialDesc {
+    MaterialDesc::Emissive(Emissive { radiance: Rgb::grey(radiance), ..Emissive::default() })
+}
+
+pub(crate) fn sphere(center: [f32; 3], radius: f32) -> SphereDesc {
+    SphereDesc { center, radius, material: Some("it".to_owned()) }
+}
+
+/// A horizontal square whose normal is up.
+pub(crate) fn floor(y: f32, half: f32) -> QuadDesc {
+    let (u, v) = ([2.0 * half, 0.0, 0.0], [0.0, 0.0, -2.0 * half]);
+    QuadDesc { corner: [-half, y, half], u, v, material: Some("it".to_owned()) }
+}
+
+/// The box from `lo` to `hi` as six quads.
+pub(crate) fn box_quads(lo: [f32; 3], hi: [f32; 3]) -> Vec<QuadDesc> {
+    let edge = |axis: usize| std::array::from_fn(|i| if i == axis { hi[i] - lo[i] } else { 0.0 });
+    let side = |axis: usize, corner: [f32; 3]| {
+        let corner = std::array::from_fn(|i| if i == axis { corner[i] } else { lo[i] });
+        QuadDesc { corner, u: edge((axis + 1) % 3), v: edge((axis + 2) % 3), material: Some("it".to_owned()) }
+    };
+    (0..3).flat_map(|axis| [side(axis, lo), side(axis, hi)]).collect()
+}
+
+/// The box from `lo` to `hi`, normals outwards.
+pub(crate) fn box_mesh(lo: [f32; 3], hi: [f32; 3]) -> MeshDesc {
+    let at = |i: usize, axis: usize| if i >> axis & 1 == 0 { lo[axis] } else { hi[axis] };
+    let vertices = (0..8).map(|i| [at(i, 0), at(i, 1), at(i, 2)]).collect();
+    let sides = [[0, 2, 3, 1], [4, 5, 7, 6], [0, 1, 5, 4], [2, 6, 7, 3], [0, 4, 6, 2], [1, 3, 7, 5]];
+    let triangles = sides.iter().flat_map(|&[a, b, c, d]| [[a, b, c], [a, c, d]]).collect();
+    MeshDesc { vertices, triangles, material: Some("it".to_owned()) }
+}
+
+/// That every channel of every pixel is `expected`, but for `error` relative to it.
+pub(crate) fn assert_everywhere(film: &Film, expected: f32, error: f32, name: &str) {
+    let image = film.develop();
+    for y in 0..image.height() {
+        for x in 0..image.width() {
+            let pixel = image.pixel(x, y);
+            let off = pixel.map(|c| (c - expected).abs()).into_iter().fold(0.0, f32::max);
+            assert!(off <= error * expected, "{name}: pixel ({x}, {y}) is {pixel:?}, not {expected}");
+        }
+    }
+}
