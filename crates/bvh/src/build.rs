@@ -1,8 +1,9 @@
 //! The builder: binned surface area heuristic, the readable reference.
 //!
 //! A node's primitives are split where the expected cost of a ray, Σ area · count, is least, tried at the
-//! borders of 16 bins along each axis (Wald 2007, doi:10.1109/RT.2007.4342588). Two levels of the binary tree
-//! become one of the four-wide tree that rays walk (Dammertz et al. 2008, doi:10.1111/j.1467-8659.2008.01261.x).
+//! borders of 16 bins along each axis (Wald 2007, doi:10.1109/RT.2007.4342588). The four-wide tree that rays walk comes
+//! of it by opening the largest children first (Wald, Benthin & Boulos 2008, "Getting Rid of Packets", RT 2008;
+//! Dammertz et al. 2008, doi:10.1111/j.1467-8659.2008.01261.x).
 
 use crate::aabb::Aabb;
 use crate::node::{Child, Node};
@@ -161,20 +162,24 @@ fn halve(items: &mut [Item], bounds: Aabb) -> usize {
     middle
 }
 
-/// Appends the subtree as four-wide nodes; the children of an inner node that are inner make way for their own.
+/// Appends the subtree as four-wide nodes.
 fn flatten(binary: &Binary, nodes: &mut Vec<Node>) -> usize {
     let index = nodes.len();
     nodes.push(Node::new(&[]));
-    let children = match &binary.kind {
-        Kind::Leaf { .. } => vec![binary],
-        Kind::Inner(pair) => pair
-            .iter()
-            .flat_map(|child| match &child.kind {
-                Kind::Inner(grandchildren) => grandchildren.iter().collect(),
-                Kind::Leaf { .. } => vec![child],
-            })
-            .collect(),
-    };
+    let mut children = vec![binary];
+    while children.len() < 4 {
+        // The largest inner child makes way for its own.
+        let inner = |(i, child): (usize, &&Binary)| {
+            matches!(child.kind, Kind::Inner(_)).then_some((i, child.bounds.half_area()))
+        };
+        let Some((largest, _)) = children.iter().enumerate().filter_map(inner).max_by(|a, b| a.1.total_cmp(&b.1))
+        else {
+            break;
+        };
+        if let Kind::Inner(pair) = &children[largest].kind {
+            children.splice(largest..=largest, pair.iter());
+        }
+    }
     let children: Vec<_> = children
         .into_iter()
         .map(|b| match b.kind {

@@ -77,11 +77,15 @@ impl Bvh {
                     let node = &self.nodes[index];
                     let (near, met) = node.intersect(&search.node_ray, search.nearest.t);
                     let mut met = met.bitmask();
+                    let entry = |lane: u32| (near[lane as usize], node.child[lane as usize]);
+                    if met.is_power_of_two() {
+                        next = entry(met.trailing_zeros()).1;
+                        continue;
+                    }
                     let base = height;
                     while met != 0 {
-                        let lane = met.trailing_zeros() as usize;
+                        let entry = entry(met.trailing_zeros());
                         met &= met - 1;
-                        let entry = (near[lane], node.child[lane]);
                         // Insert so that the nearest lies on top.
                         let mut at = height;
                         while at > base && stack[at - 1].0 < entry.0 {
@@ -120,8 +124,8 @@ impl Bvh {
     }
 }
 
-/// Each level of four-wide nodes leaves at most three entries behind, and takes the place of two binary levels.
-const STACK: usize = 3 * (MAX_DEPTH / 2 + 1) + 1;
+/// Each level of the four-wide tree leaves at most three entries behind, and has no more levels than the binary one.
+const STACK: usize = 3 * MAX_DEPTH + 1;
 
 /// Entry distances are rounded; a box is skipped only if it is farther by more than that.
 const SLACK: f32 = 1.0 + 1e-6;

@@ -9,20 +9,10 @@ use glam::Vec3;
 /// at most `p_error`.
 #[inline]
 pub fn offset_ray_origin(p: Vec3, p_error: Vec3, n: Vec3, w: Vec3) -> Vec3 {
-    let d = n.abs().dot(p_error);
-    let offset = if w.dot(n) < 0.0 { -d * n } else { d * n };
-    let moved = p + offset;
-    // Round away from the surface.
-    let away = |x: f32, by: f32| {
-        if by > 0.0 {
-            x.next_up()
-        } else if by < 0.0 {
-            x.next_down()
-        } else {
-            x
-        }
-    };
-    Vec3::new(away(moved.x, offset.x), away(moved.y, offset.y), away(moved.z, offset.z))
+    // The sum below is rounded too, by at most half of this.
+    let rounding = p.abs() * f32::EPSILON;
+    let d = n.abs().dot(p_error + rounding);
+    p + n * d.copysign(w.dot(n))
 }
 
 #[cfg(test)]
