@@ -190,3 +190,36 @@ fn flatten(binary: &Binary, nodes: &mut Vec<Node>) -> usize {
     nodes[index] = Node::new(&children);
     index
 }
+
+#[cfg(test)]
+mod tests {
+    use glam::Vec3;
+
+    use super::*;
+    use crate::sphere::Sphere;
+
+    fn depth(nodes: &[Node], child: Child) -> usize {
+        match child.unpack() {
+            Ok(_) => 0,
+            Err(index) => 1 + nodes[index].child.iter().map(|&c| depth(nodes, c)).max().unwrap_or(0),
+        }
+    }
+
+    /// Balls at ±2ᵏ on all axes: the heuristic would take off a few at a time.
+    #[test]
+    fn no_path_is_longer_than_the_stack_allows() {
+        let mut balls = Vec::new();
+        for k in -60..60 {
+            let radius = 2.0_f32.powi(k);
+            for axis in Vec3::AXES {
+                balls.extend([1.0, -1.0].map(|sign| Sphere { center: sign * radius * axis, radius: 0.01 * radius }));
+            }
+        }
+        let prims: Vec<_> = balls.into_iter().map(Primitive::Sphere).collect();
+        let tree = build(&prims);
+        assert!(depth(&tree.nodes, Child::ROOT) <= MAX_DEPTH / 2);
+        let mut order = tree.order;
+        order.sort_unstable();
+        assert!(order.into_iter().eq(0..prims.len() as u32), "each is in one leaf");
+    }
+}

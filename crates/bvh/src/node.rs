@@ -61,7 +61,7 @@ pub(crate) struct Node {
 
 impl Node {
     pub(crate) fn new(children: &[(Child, Aabb)]) -> Self {
-        let lane = |i: usize| children.get(i).map_or(Aabb::EMPTY, |c| c.1.padded());
+        let lane = |i: usize| children.get(i).map_or(Aabb::EMPTY, |c| c.1);
         let plane = |get: fn(&Aabb) -> Vec3, axis: usize| Vec4::from_array([0, 1, 2, 3].map(|i| get(&lane(i))[axis]));
         Self {
             planes: [[0, 1, 2].map(|axis| plane(|b| b.lo, axis)), [0, 1, 2].map(|axis| plane(|b| b.hi, axis))],
@@ -97,8 +97,14 @@ impl NodeRay {
     /// through them never passes over a hit that went through here, however badly conditioned the intersection.
     #[inline]
     pub(crate) fn confirm(&self, t: f32, bounds: Aabb) -> Option<f32> {
-        let (near, met) = Node::new(&[(Child::NONE, bounds)]).intersect(self, f32::MAX);
-        met.test(0).then(|| t.max(near.x * BEHIND_ENTRY))
+        // The arithmetic of `Node::intersect`, for one box.
+        let planes = [bounds.lo, bounds.hi];
+        let at = |end: usize, axis: usize| (planes[end][axis] - self.o[axis].x) * self.d_inv[axis].x;
+        let enter = |axis: usize| at(self.negative[axis], axis);
+        let leave = |axis: usize| at(1 - self.negative[axis], axis);
+        let near = enter(0).max(enter(1)).max(enter(2).max(0.0));
+        let far = leave(0).min(leave(1)).min(leave(2));
+        (near <= far * ROBUST).then(|| t.max(near * BEHIND_ENTRY))
     }
 }
 

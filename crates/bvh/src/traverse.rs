@@ -19,10 +19,13 @@ pub struct Bvh {
 }
 
 impl Bvh {
+    /// The most primitives that a tree can hold.
+    pub const MAX_PRIMITIVES: usize = Child::MAX_SLOTS;
+
     /// Builds the tree, in O(n log n).
     ///
     /// # Panics
-    /// Above 2²⁷ primitives.
+    /// Above [`MAX_PRIMITIVES`](Self::MAX_PRIMITIVES).
     pub fn build(prims: Vec<Primitive>) -> Self {
         let tree = build(&prims);
         let sorted = tree.order.iter().map(|&i| prims[i as usize]).collect();

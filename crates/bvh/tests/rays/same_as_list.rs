@@ -166,3 +166,33 @@ fn centres_that_coincide() {
     let fan = fan.windows(2).map(|e| Primitive::Quad(Quad { corner: -(e[0] + e[1]) / 2.0, u: e[0], v: e[1] }));
     compare("fan", fan.collect(), 2.0, 5000, &mut r);
 }
+
+/// Long thin quads and triangles hinged on one short edge and nearly in one plane, seen in that plane from beyond the hinge:
+/// their distances are all the same but for errors larger than single precision's.
+#[test]
+fn fans_seen_edge_on() {
+    let mut r = Random::new(18);
+    for _ in 0..400 {
+        let size = r.pick(&[1.0, 1e3, 1e6]);
+        let thin = r.pick(&[1.0, 1e-3, 1e-4, 1e-5]) * size;
+        let (corner, hinge, wing) = (r.in_cube() * r.pick(&[0.0, size]), r.in_cube() * thin, r.in_cube() * size);
+        let jitter = r.pick(&[1e-8, 1e-7, 1e-6, 1e-4]) * size;
+        let blade = |_| {
+            let (u, v) = (hinge, wing * (r.unit() + 0.1) + r.in_cube() * jitter);
+            if r.below(2) == 0 {
+                Primitive::Quad(Quad { corner, u, v })
+            } else {
+                Primitive::Triangle(Triangle { a: corner, b: corner + u, c: corner + v })
+            }
+        };
+        let shapes: Vec<_> = (0..40).map(blade).collect();
+        let (tree, list) = (Bvh::build(shapes.clone()), Bvh::list(shapes));
+        for _ in 0..1000 {
+            let on_hinge = corner + hinge * r.unit();
+            let o = on_hinge - (wing + hinge * (r.unit() - 0.5)) * r.pick(&[1e-6, 1e-3, 1.0]);
+            let ray = Ray::new(o, on_hinge + wing * r.pick(&[0.0, 1e-7, 1e-5]) - o);
+            let [a, b] = [&tree, &list].map(|bvh| bvh.intersect(&ray).map(|h| (h.t.to_bits(), h.prim)));
+            assert_eq!(a, b, "{ray:?}");
+        }
+    }
+}

@@ -120,7 +120,7 @@ impl ThinLens {
     pub fn new(desc: &CameraDesc, width: u32, height: u32) -> Self {
         let (eye, at) = (Vec3::from(desc.look_from), Vec3::from(desc.look_at));
         let forward = (at - eye).normalize();
-        let right = forward.cross(Vec3::from(desc.up)).normalize();
+        let right = forward.cross(Vec3::from(desc.up).normalize()).normalize();
         let down = forward.cross(right);
         let focus = desc.focus_distance.unwrap_or_else(|| at.distance(eye));
         let half_tan = |degrees: f32| libm::tanf(0.5 * degrees.to_radians());

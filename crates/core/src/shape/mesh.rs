@@ -34,8 +34,14 @@ pub struct MeshDesc {
 impl ShapeDesc for MeshDesc {
     fn check(&self, c: &mut Checker) {
         c.within("vertices", |c| {
-            for (i, vertex) in self.vertices.iter().enumerate().filter(|(_, v)| v.iter().any(|x| !x.is_finite())) {
-                c.problem(i, format!("vertex {i} is {vertex:?}"), Some("use finite numbers".to_owned()));
+            for (i, vertex) in
+                self.vertices.iter().enumerate().filter(|(_, v)| !v.iter().copied().all(Checker::is_finite))
+            {
+                c.problem(
+                    i,
+                    format!("vertex {i} is {vertex:?}"),
+                    Some("numbers up to 1e15 in size are allowed".to_owned()),
+                );
             }
         });
         let count = self.vertices.len();

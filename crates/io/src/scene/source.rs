@@ -77,7 +77,7 @@ impl Sources {
     }
 
     /// Of all texts; one more than each, because the end of a text is a place, too.
-    fn length(&self) -> usize {
+    pub(super) fn length(&self) -> usize {
         self.texts.last().map_or(0, |s| s.base + s.text.len() + 1)
     }
 
@@ -180,7 +180,7 @@ impl Sources {
     }
 
     fn place(&self, offset: usize) -> Option<Place> {
-        let source = self.texts.iter().rev().find(|s| s.base <= offset)?;
+        let source = self.texts.iter().rev().find(|s| s.base <= offset && offset - s.base <= s.text.len())?;
         let before = source.text.get(..offset - source.base).unwrap_or(&source.text);
         let (line, column) = line_and_column(before);
         Some(Place { file: source.name.clone(), line, column })

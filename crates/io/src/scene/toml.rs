@@ -21,24 +21,33 @@ use crate::scene::merge::{self, Table};
 use crate::scene::nesting::{self, MAX_DEPTH};
 use crate::scene::source::{Problem, Sources, into_error};
 
-/// More mistakes than this are not worth a list, nor the time: each costs a walk through the scene.
-const MAX_PROBLEMS: usize = 20;
+/// How many mistakes are looked for: each costs a walk through the scene, so fewer in long ones.
+fn most_problems(length: usize) -> usize {
+    (16_000_000 / length.max(1)).clamp(20, 1000)
+}
 
 /// The description in the first of `sources`, changed by settings.
 pub(super) fn read(mut sources: Sources, overrides: &[Override]) -> Result<SceneDesc, Error> {
     let settings: Vec<_> =
         overrides.iter().map(|o| (o, sources.add("-D".to_owned(), format!("{}={}", o.path, o.value)))).collect();
-    let mut reader = Reader { sources: &sources, problems: Vec::new() };
+    let most = most_problems(sources.length());
+    let mut reader = Reader { sources: &sources, most, problems: Vec::new() };
     let mut table = reader.table(0);
     for (setting, source) in settings {
         reader.set(&mut table, setting, source);
     }
     let desc = reader.deserialize(table);
+    if reader.problems.len() >= most {
+        let message = format!("these are the first {most} mistakes; there may be more");
+        reader.report(usize::MAX..usize::MAX, message, None);
+    }
     if reader.problems.is_empty() { Ok(desc) } else { Err(into_error(reader.problems)) }
 }
 
 struct Reader<'a> {
     sources: &'a Sources,
+    /// Where the list of problems ends.
+    most: usize,
     problems: Vec<Problem>,
 }
 
@@ -95,7 +104,7 @@ impl<'a> Reader<'a> {
     fn deserialize(&mut self, table: Table<'_>) -> SceneDesc {
         let mut numbered = Numbered::new(table);
         let mut removed: Vec<Vec<String>> = Vec::new();
-        while self.problems.len() < MAX_PROBLEMS {
+        while self.problems.len() < self.most {
             let whole = Spanned::new(0..0, numbered.table.clone());
             let error = match SceneDesc::deserialize(toml::de::Deserializer::from(whole)) {
                 Ok(desc) => {
@@ -131,7 +140,7 @@ impl<'a> Reader<'a> {
                 let is_named = path.get(1).is_none_or(|name| problem.message == missing_material(name));
                 *path == problem.path || is_material && is_named && problem.message.starts_with(MISSING_MATERIAL)
             });
-            if follows || self.problems.len() >= MAX_PROBLEMS {
+            if follows || self.problems.len() >= self.most {
                 continue;
             }
             let number = merge::span_of(&numbered.table, &problem.path).unwrap_or_default();
@@ -204,7 +213,7 @@ fn keep_only_kind(table: &mut Table<'_>, keys: &[(&str, Range<usize>)]) {
 
 /// An element of a list of numbers goes with its list: a shorter one would only be another mistake.
 fn path_to_remove(table: &Table<'_>, mut path: Vec<String>) -> Vec<String> {
-    let is_number = |key: &String| key.bytes().all(|b| b.is_ascii_digit());
+    let is_number = |key: &String| !key.is_empty() && key.bytes().all(|b| b.is_ascii_digit());
     while path.last().is_some_and(is_number) && !holds_table(table, &path) {
         path.pop();
     }

@@ -157,10 +157,11 @@ fn columns_count_characters() {
 
 #[test]
 fn a_long_list_ends() {
-    let text = "[[shape.sphere]]\n".repeat(10_000);
+    let text = "[[shape.sphere]]\n".repeat(100_000);
     let found = crate::problems(eyebeam_io::scene::read_str("a.toml", &text, &[]).unwrap_err());
-    assert_eq!(found.len(), 20);
+    assert_eq!(found.len(), 21);
     assert_eq!(crate::places(&found)[19], (20, 1));
+    assert_eq!(found[20].message, "these are the first 20 mistakes; there may be more");
 }
 
 #[test]

@@ -120,3 +120,10 @@ fn schema_has_the_keys_that_the_reader_knows() {
         assert!(!said.contains("unknown"), "{text}\n{said}");
     }
 }
+
+#[test]
+fn the_schema_for_editors_is_up_to_date() {
+    let text = fs::read_to_string(root().join("docs/formats/scene.schema.json")).unwrap();
+    let written: Value = serde_json::from_str(&text).unwrap();
+    assert_eq!(written, schema(), "run `make schema`");
+}
