@@ -32,7 +32,7 @@ fn camera_rays(c: &mut Criterion) {
     }
 }
 
-/// Pictures by the renderer and by the textbook program, of the same size, sample count and depth.
+/// Pictures by the renderer, and by the textbook program of the same size, sample count and depth.
 fn pictures(c: &mut Criterion) {
     let mut group = c.benchmark_group("samples");
     group.sample_size(10).measurement_time(Duration::from_secs(10));
@@ -43,8 +43,10 @@ fn pictures(c: &mut Criterion) {
         group.throughput(Throughput::Elements(samples(&desc)));
         group
             .bench_function(BenchmarkId::new("eyebeam", name), |b| b.iter(|| render(&scene, &desc, NonZeroUsize::MIN)));
-        let textbook = Textbook::new(&desc).unwrap();
-        group.bench_function(BenchmarkId::new("textbook", name), |b| b.iter(|| textbook.render()));
+        // The book knows no lamps, so it cannot draw all scenes.
+        if let Ok(textbook) = Textbook::new(&desc) {
+            group.bench_function(BenchmarkId::new("textbook", name), |b| b.iter(|| textbook.render()));
+        }
     }
 }
 

@@ -326,6 +326,28 @@ mod tests {
     use super::*;
     use crate::measure;
 
+    const SCENE: &str = r#"
+        [camera]
+        look_from = [0, 1, 5]
+        look_at = [0, 0.5, 0]
+        aperture = 0.2
+        [material]
+        ground.lambertian.albedo = 0.5
+        gold.metal = {albedo = [0.9, 0.7, 0.3], roughness = 0.3}
+        glass.dielectric.eta = 1.5
+        [shape]
+        sphere = [
+            {center = [0, -1000, 0], radius = 1000, material = "ground"},
+            {center = [-1.1, 0.5, 0], radius = 0.5, material = "gold"},
+            {center = [0, 0.5, 0], radius = 0.5, material = "glass"},
+            {center = [1.1, 0.5, 0], radius = 0.5},
+        ]
+    "#;
+
+    fn scene() -> SceneDesc {
+        eyebeam_io::scene::read_str("spheres", SCENE, &[]).unwrap()
+    }
+
     fn luminance([r, g, b]: [f64; 3]) -> f64 {
         0.2126 * r + 0.7152 * g + 0.0722 * b
     }
@@ -333,8 +355,7 @@ mod tests {
     /// Matte, metal and glass through a lens: block by block, both pictures are as far apart as their noise allows.
     #[test]
     fn draws_what_the_renderer_draws() {
-        let mut desc = measure::read_scene("spheres").unwrap();
-        desc.camera.aperture = Some(0.2);
+        let mut desc = scene();
         measure::shrink(&mut desc, 64, 256);
         let (mut film, _) = measure::render(&Scene::build(&desc).unwrap(), &desc, NonZeroUsize::MIN);
         let (image, width) = (film.develop(), desc.render.width);
@@ -355,9 +376,16 @@ mod tests {
 
     #[test]
     fn refuses_what_the_book_does_not_know() {
-        let mut desc = measure::read_scene("spheres").unwrap();
-        assert!(Textbook::new(&desc).is_ok());
-        desc.environment = EnvironmentDesc::None(Default::default());
-        assert!(Textbook::new(&desc).is_err());
+        let lamp = MaterialDesc::Emissive(Default::default());
+        let changes: [fn(&mut SceneDesc, MaterialDesc); 2] = [
+            |desc, _| desc.environment = EnvironmentDesc::None(Default::default()),
+            |desc, lamp| *desc.material.get_mut("gold").unwrap() = lamp,
+        ];
+        assert!(Textbook::new(&scene()).is_ok());
+        for change in changes {
+            let mut desc = scene();
+            change(&mut desc, lamp.clone());
+            assert!(Textbook::new(&desc).is_err());
+        }
     }
 }

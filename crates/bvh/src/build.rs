@@ -21,7 +21,6 @@ pub(crate) const MAX_DEPTH: usize = 40;
 pub(crate) struct Tree {
     pub(crate) nodes: Vec<Node>,
     pub(crate) order: Vec<u32>,
-    pub(crate) bounds: Aabb,
 }
 
 pub(crate) fn build(prims: &[Primitive]) -> Tree {
@@ -32,7 +31,7 @@ pub(crate) fn build(prims: &[Primitive]) -> Tree {
     if !prims.is_empty() {
         flatten(&root, &mut nodes);
     }
-    Tree { nodes, order: items.iter().map(|item| item.prim).collect(), bounds: root.bounds }
+    Tree { nodes, order: items.iter().map(|item| item.prim).collect() }
 }
 
 /// A primitive on its way into a leaf.

@@ -13,6 +13,8 @@ pub struct Bvh {
     nodes: Vec<Node>,
     /// In the order of the leaves.
     prims: Vec<Primitive>,
+    /// The box of each of `prims`.
+    boxes: Vec<Aabb>,
     /// Index of each of `prims` in the list that the caller gave.
     ids: Vec<u32>,
     bounds: Aabb,
@@ -29,15 +31,20 @@ impl Bvh {
     pub fn build(prims: Vec<Primitive>) -> Self {
         let tree = build(&prims);
         let sorted = tree.order.iter().map(|&i| prims[i as usize]).collect();
-        Self { nodes: tree.nodes, prims: sorted, ids: tree.order, bounds: tree.bounds }
+        Self::new(tree.nodes, sorted, tree.order)
     }
 
     /// Keeps the primitives as a list, every one of which is tested by every ray: the same hits in time O(n),
     /// for comparison.
     pub fn list(prims: Vec<Primitive>) -> Self {
-        let bounds = prims.iter().fold(Aabb::EMPTY, |b, p| b.union(p.bounds()));
         let ids = (0..prims.len() as u32).collect();
-        Self { nodes: Vec::new(), prims, ids, bounds }
+        Self::new(Vec::new(), prims, ids)
+    }
+
+    fn new(nodes: Vec<Node>, prims: Vec<Primitive>, ids: Vec<u32>) -> Self {
+        let boxes: Vec<_> = prims.iter().map(Primitive::bounds).collect();
+        let bounds = boxes.iter().fold(Aabb::EMPTY, |whole, &b| whole.union(b));
+        Self { nodes, prims, boxes, ids, bounds }
     }
 
     /// The box around everything; empty if there is nothing.
@@ -113,11 +120,11 @@ impl Bvh {
     #[inline]
     fn test_slots(&self, slots: std::ops::Range<usize>, search: &mut Search) {
         for slot in slots {
-            let prim = &self.prims[slot];
-            let Some(hit) = prim.intersect(&search.ray).filter(|hit| hit.t as f32 <= search.nearest.t) else {
+            let Some(hit) = self.prims[slot].intersect(&search.ray).filter(|hit| hit.t as f32 <= search.nearest.t)
+            else {
                 continue;
             };
-            if let Some(t) = search.node_ray.confirm(hit.t as f32, prim.bounds()) {
+            if let Some(t) = search.node_ray.confirm(hit.t as f32, self.boxes[slot]) {
                 search.offer(Hit { t, prim: self.ids[slot], u: hit.u as f32, v: hit.v as f32, slot: slot as u32 });
             }
         }
