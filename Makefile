@@ -20,9 +20,10 @@ figures:
 
 # The pictures in the README.
 pictures:
+	mkdir -p docs/pictures
 	cargo run --release -- render scenes/spheres.toml -o docs/pictures/spheres.png --spp 1024
 	cargo run --release -- render scenes/weekend.toml -o docs/pictures/weekend.png --spp 512 -r 800x450
-	cargo run --release -- render scenes/cornell.toml -o docs/pictures/cornell.png --spp 4096
+	cargo run --release -- render scenes/cornell.toml -o docs/pictures/cornell.png --spp 2048
 	cargo run --release -- render scenes/roughness.toml -o docs/pictures/roughness.png --spp 512 -r 800x300
 	cargo run --release -- render scenes/two-spheres.toml -o docs/pictures/two-spheres.png --spp 1024
 

@@ -70,7 +70,7 @@ pub(crate) struct RenderArgs {
     #[arg(short, long)]
     pub(crate) quiet: bool,
     /// Say more
-    #[arg(short, long)]
+    #[arg(short, long, conflicts_with = "quiet")]
     pub(crate) verbose: bool,
 }
 

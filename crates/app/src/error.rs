@@ -1,7 +1,5 @@
 //! Why a command ended early, and the exit code that says so.
 
-use std::path::PathBuf;
-
 /// The exit code of a bug.
 pub(crate) const INTERNAL: u8 = 1;
 
@@ -16,8 +14,8 @@ pub(crate) enum Error {
     Usage(String),
     #[error("error: the picture would need {}, and {} are allowed\nhint: make it smaller (-r), or allow more (--memory)", bytes(*.needed), bytes(*.allowed))]
     Memory { needed: u64, allowed: u64 },
-    #[error("error: cannot write `{}`: {source}", .path.display())]
-    Write { path: PathBuf, source: std::io::Error },
+    #[error("error: cannot write to standard output: {0}")]
+    Stdout(std::io::Error),
     /// Ended by a signal; what there was of the picture is written.
     #[error("")]
     Signal(u8),
@@ -36,7 +34,7 @@ impl Error {
         match self {
             Self::Usage(_) | Self::Io(eyebeam_io::Error::UnknownFormat { .. }) => 2,
             Self::Io(eyebeam_io::Error::Scene(_)) | Self::Scene(_) => 3,
-            Self::Io(eyebeam_io::Error::Io { .. }) | Self::Write { .. } => 4,
+            Self::Io(eyebeam_io::Error::Io { .. }) | Self::Stdout(_) => 4,
             Self::Memory { .. } => 5,
             Self::Io(eyebeam_io::Error::Encode(_)) => INTERNAL,
             Self::Signal(number) => 128 + number,

@@ -20,6 +20,13 @@ pub(crate) struct State {
     pub(crate) error: Option<f64>,
 }
 
+impl State {
+    /// Samples per pixel so far.
+    fn spp_done(&self) -> u32 {
+        (self.done * f64::from(self.spp)) as u32
+    }
+}
+
 /// A way to show it.
 pub(crate) struct Progress {
     start: Instant,
@@ -92,10 +99,9 @@ impl Progress {
             }
             Display::Lines => say(&format!("{:3.0} %  {}", 100.0 * state.done, summary(state, rays_per_s, left))),
             Display::Json => {
-                let spp = (state.done * f64::from(state.spp)) as u32;
                 let line = Line {
                     t: seconds,
-                    spp,
+                    spp: state.spp_done(),
                     of: state.spp,
                     rays_per_s,
                     error: state.error,
@@ -121,7 +127,7 @@ impl Progress {
 fn summary(state: State, rays_per_s: f64, left: Option<f64>) -> String {
     let error = state.error.map(|e| format!(" · error {:.1} %", 100.0 * e)).unwrap_or_default();
     let left = left.map(|s| format!(" · {} left", duration(s))).unwrap_or_default();
-    format!("{:.1} Mray/s{error}{left}", rays_per_s / 1e6)
+    format!("{} of {} spp · {:.1} Mray/s{error}{left}", state.spp_done(), state.spp, rays_per_s / 1e6)
 }
 
 /// `1:02:03`, `4:05` or `6 s`.

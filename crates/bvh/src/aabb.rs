@@ -15,17 +15,14 @@ impl Aabb {
     /// The box without points: the neutral element of [`union`](Self::union).
     pub const EMPTY: Self = Self { lo: Vec3::INFINITY, hi: Vec3::NEG_INFINITY };
 
-    /// The smallest single-precision box around double-precision points.
+    /// A box around double-precision points, wider by a few roundings, so that a ray along a face, with a direction of 0
+    /// across it, is inside.
     pub(crate) fn around(points: impl IntoIterator<Item = DVec3>) -> Self {
-        points.into_iter().fold(Self::EMPTY, |b, p| {
-            let near = p.as_vec3();
-            let exact = near.as_dvec3();
-            let down = |f: f32, e: f64, x: f64| if e > x { f.next_down() } else { f };
-            let up = |f: f32, e: f64, x: f64| if e < x { f.next_up() } else { f };
-            b.union(Self {
-                lo: Vec3::new(down(near.x, exact.x, p.x), down(near.y, exact.y, p.y), down(near.z, exact.z, p.z)),
-                hi: Vec3::new(up(near.x, exact.x, p.x), up(near.y, exact.y, p.y), up(near.z, exact.z, p.z)),
-            })
+        /// Times the inverse of the smallest direction, this is longer than any ray.
+        const LEAST: f32 = 1e-18;
+        points.into_iter().map(DVec3::as_vec3).fold(Self::EMPTY, |b, p| {
+            let margin = p.abs() * (2.0 * f32::EPSILON) + LEAST;
+            b.union(Self { lo: p - margin, hi: p + margin })
         })
     }
 

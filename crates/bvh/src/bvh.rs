@@ -7,7 +7,7 @@ use crate::search::{Search, Slot};
 use crate::shape::Primitive;
 use crate::simd::{Isa, LANES};
 use crate::traverse::closest;
-use crate::wide::{Kind, Tree};
+use crate::wide::{Child, Kind, Tree};
 
 /// Primitives sorted for rays.
 #[derive(Clone, Debug)]
@@ -22,10 +22,13 @@ pub struct Bvh {
 }
 
 impl Bvh {
+    /// The most primitives that a tree holds.
+    pub const MAX_PRIMITIVES: usize = Child::MAX_BLOCKS;
+
     /// Builds the tree, in O(n log n).
     ///
     /// # Panics
-    /// Above 2²⁷ primitives.
+    /// Above [`MAX_PRIMITIVES`](Self::MAX_PRIMITIVES).
     pub fn build(primitives: Vec<Primitive>) -> Self {
         let (tree, bounds) = build(&primitives);
         let reach = if primitives.is_empty() { 0.0 } else { bounds.lo.abs().max(bounds.hi.abs()).max_element() };

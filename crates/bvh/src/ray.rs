@@ -7,7 +7,7 @@ use crate::search::Slot;
 
 /// A half line from `o` along `d`, looked at for `0 < t <= t_max`.
 ///
-/// `d` need not be of unit length; `t` counts in multiples of it.
+/// `d` may have any length from 1e-18 to 1e18; `t` counts in multiples of it.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Ray {
     /// Origin.

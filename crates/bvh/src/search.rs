@@ -61,7 +61,12 @@ impl Search {
         let Some(hit) = primitive.intersect(&self.ray).filter(|hit| hit.t as f32 <= self.nearest.t) else {
             return;
         };
-        let Some(entry) = self.ray.enters(primitive.bounds()) else {
+        let entry = match kind {
+            // Spheres are never badly conditioned.
+            Kind::Sphere => Some(0.0),
+            Kind::Triangle | Kind::Quad => self.ray.enters(primitive.bounds()),
+        };
+        let Some(entry) = entry else {
             return;
         };
         let (t, prim) = (hit.t.max(entry) as f32, tree.id(kind, block, lane));

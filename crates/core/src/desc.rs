@@ -101,6 +101,7 @@ impl SceneDesc {
             }
         });
         c.within("shape", |c| {
+            self.shape.check_count(c);
             for (kind, index, shape) in self.shape.iter() {
                 c.within(kind, |c| {
                     c.within(index, |c| {

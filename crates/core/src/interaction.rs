@@ -27,6 +27,12 @@ impl<'s> SurfaceInteraction<'s> {
         Self { point, frame, wo: frame.to_local(-d), material }
     }
 
+    /// Where the surface was met.
+    #[inline]
+    pub fn point(&self) -> SurfacePoint {
+        self.point
+    }
+
     /// Radiance that the surface itself sends back along the ray.
     #[inline]
     pub fn le(&self) -> Spectrum {

@@ -26,6 +26,7 @@
 //! ```
 #![forbid(unsafe_code)]
 
+mod array;
 pub mod camera;
 pub mod color;
 pub mod desc;

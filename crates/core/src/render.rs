@@ -102,7 +102,10 @@ impl<'s> Render<'s> {
         };
         thread::scope(|scope| {
             for _ in 1..self.settings.threads.get().min(tiles.len()) {
-                scope.spawn(work);
+                // Fewer threads than asked for make the same picture.
+                if thread::Builder::new().spawn_scoped(scope, work).is_err() {
+                    break;
+                }
             }
             work();
         });

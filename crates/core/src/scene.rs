@@ -2,7 +2,9 @@
 
 use std::collections::BTreeMap;
 
-use eyebeam_bvh::{Bvh, Primitive, Ray};
+pub use eyebeam_bvh::{Bvh, Ray};
+
+use eyebeam_bvh::Primitive;
 
 use crate::camera::{CameraDesc, ThinLens};
 use crate::desc::SceneDesc;

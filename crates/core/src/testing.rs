@@ -42,7 +42,7 @@ fn chi2_at(observed: &[u64], expected: &[f64], significance: f64) -> Result<(), 
     } else if pool.0 > pool.1 + 6.0 * pool.1.sqrt() + 10.0 {
         return Err(format!("{} samples where {:.2} were expected", pool.0, pool.1));
     }
-    let freedom = (bins - 1).max(1);
+    let freedom = bins.max(2) - 1;
     let p = chi2_survival(chi2, freedom);
     if p < significance {
         Err(format!("chi² {chi2:.1} with {freedom} degrees of freedom: p = {p:.1e}"))

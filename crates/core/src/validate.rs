@@ -42,11 +42,16 @@ impl Checker {
         self.path.pop();
     }
 
+    /// A mesh can be wrong in millions of places; nobody reads more than this.
+    const MOST: usize = 1000;
+
     /// Notes a problem of the value at `key`.
     pub(crate) fn problem(&mut self, key: impl ToString, message: impl Into<String>, hint: Option<String>) {
-        let mut path = self.path.clone();
-        path.push(key.to_string());
-        self.problems.push(Problem { path, message: message.into(), hint });
+        if self.problems.len() < Self::MOST {
+            let mut path = self.path.clone();
+            path.push(key.to_string());
+            self.problems.push(Problem { path, message: message.into(), hint });
+        }
     }
 
     fn require(&mut self, holds: bool, key: &str, message: impl FnOnce() -> String, hint: &str) {
@@ -55,8 +60,13 @@ impl Checker {
         }
     }
 
+    /// Whether a number is finite and not too large to be squared.
+    pub(crate) fn is_finite(value: f32) -> bool {
+        value.abs() <= Self::FARTHEST
+    }
+
     pub(crate) fn finite(&mut self, key: &str, values: &[f32]) {
-        let bad = values.iter().find(|v| !(v.is_finite() && v.abs() <= Self::FARTHEST));
+        let bad = values.iter().find(|&&v| !Self::is_finite(v));
         let message = || format!("`{key}` must be finite, not {}", bad.unwrap_or(&f32::NAN));
         self.require(bad.is_none(), key, message, "numbers up to 1e15 in size are allowed");
     }

@@ -66,13 +66,26 @@ pub struct Diagnostic {
 
 impl fmt::Display for Diagnostic {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        write!(f, "error: {}", self.message)?;
+        write!(f, "error: {}", visible(&self.message))?;
         if let Some(Place { file, line, column }) = &self.place {
-            write!(f, "\n  --> {file}:{line}:{column}")?;
+            write!(f, "\n  --> {}:{line}:{column}", visible(file))?;
         }
         if let Some(hint) = &self.hint {
-            write!(f, "\nhint: {hint}")?;
+            write!(f, "\nhint: {}", visible(hint))?;
         }
         Ok(())
     }
+}
+
+/// Names come from files: a line stays a line, no longer than one can read, and a terminal is told nothing.
+fn visible(text: &str) -> String {
+    const LONGEST: usize = 500;
+    let mut line = String::new();
+    for c in text.chars().take(LONGEST) {
+        if c.is_control() { line.extend(c.escape_default()) } else { line.push(c) }
+    }
+    if text.chars().nth(LONGEST).is_some() {
+        line.push('…');
+    }
+    line
 }

@@ -29,10 +29,7 @@ fn is_standard(path: &Path) -> bool {
 fn write(path: &Path, bytes: &[u8]) -> Result<(), Error> {
     if is_standard(path) {
         let mut out = stdout().lock();
-        return out
-            .write_all(bytes)
-            .and_then(|()| out.flush())
-            .map_err(|source| Error::Write { path: path.to_owned(), source });
+        return out.write_all(bytes).and_then(|()| out.flush()).map_err(Error::Stdout);
     }
     Ok(eyebeam_io::output::write_atomic(path, bytes)?)
 }

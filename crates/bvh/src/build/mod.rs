@@ -17,3 +17,40 @@ pub(crate) fn build(primitives: &[Primitive]) -> (Tree, Aabb) {
     let binary = sah::build(primitives);
     (collapse::collapse(&binary, primitives), binary.bounds())
 }
+
+#[cfg(test)]
+mod tests {
+    use glam::Vec3;
+
+    use super::*;
+    use crate::shape::Sphere;
+    use crate::simd::LANES;
+    use crate::wide::{Kind, Target};
+
+    fn depth(tree: &Tree, child: Child) -> usize {
+        match child.target() {
+            Target::Node(index) => 1 + tree.nodes[index].child.iter().map(|&c| depth(tree, c)).max().unwrap_or(0),
+            Target::Leaf(..) | Target::Nothing => 0,
+        }
+    }
+
+    /// Balls at ±2ᵏ on all axes: the heuristic would take off a few at a time.
+    #[test]
+    fn no_path_is_longer_than_the_stack_allows() {
+        let mut balls = Vec::new();
+        for k in -60..60 {
+            let radius = 2.0_f32.powi(k);
+            for axis in Vec3::AXES {
+                balls.extend([1.0, -1.0].map(|sign| Sphere { center: sign * radius * axis, radius: 0.01 * radius }));
+            }
+        }
+        let prims: Vec<_> = balls.into_iter().map(Primitive::Sphere).collect();
+        let (tree, _) = build(&prims);
+        assert!(depth(&tree, tree.root) <= MAX_DEPTH);
+        let lanes = (0..tree.spheres.len()).flat_map(|block| (0..LANES).map(move |lane| (block, lane)));
+        let in_use = lanes.filter(|&(block, lane)| tree.spheres[block].used >> lane & 1 == 1);
+        let mut ids: Vec<_> = in_use.map(|(block, lane)| tree.id(Kind::Sphere, block, lane)).collect();
+        ids.sort_unstable();
+        assert!(ids.into_iter().eq(0..prims.len() as u32), "each is in one leaf");
+    }
+}

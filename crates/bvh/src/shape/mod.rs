@@ -24,7 +24,8 @@ pub enum Primitive {
 }
 
 impl Primitive {
-    /// The smallest single-precision box around the shape.
+    /// The box around the shape, wider by a few roundings.
+    #[inline]
     pub fn bounds(&self) -> Aabb {
         match self {
             Self::Sphere(s) => s.bounds(),

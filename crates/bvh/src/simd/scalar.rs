@@ -66,7 +66,7 @@ impl Simd for Scalar {
     }
     #[inline(always)]
     fn not_gt(self, a: F32, b: F32) -> u32 {
-        (0..LANES).map(|i| u32::from(!(a[i] > b[i])) << i).sum()
+        (0..LANES).map(|i| (u32::from(a[i] > b[i]) ^ 1) << i).sum()
     }
     #[inline(always)]
     fn prefetch<T>(self, _: &[T], _: usize) {}

@@ -1,6 +1,6 @@
-//! The tree finds what the list finds, bit for bit.
+//! The tree finds what the list finds, bit for bit, with whatever instructions it is walked.
 
-use eyebeam_bvh::{Bvh, Primitive, Quad, Ray, Sphere, Triangle};
+use eyebeam_bvh::{Bvh, Isa, Primitive, Quad, Ray, Sphere, Triangle};
 use glam::Vec3;
 
 use crate::random::Random;
@@ -9,10 +9,11 @@ use crate::random::Random;
 fn compare(name: &str, shapes: Vec<Primitive>, extent: f32, rays: usize, r: &mut Random) {
     let (tree, list) = (Bvh::build(shapes.clone()), Bvh::list(shapes.clone()));
     assert_eq!(tree.bounds(), list.bounds());
+    let plain = tree.clone().with_isa(Isa::Scalar);
     let mut hits = 0;
     for _ in 0..rays {
         let ray = r.ray(&shapes, extent);
-        let [a, b] = [&tree, &list].map(|bvh| {
+        let [a, b, c] = [&tree, &plain, &list].map(|bvh| {
             let hit = bvh.intersect(&ray);
             let bits = hit.map(|h| (h.t.to_bits(), h.prim, h.u.to_bits(), h.v.to_bits()));
             if let Some(h) = hit {
@@ -21,7 +22,8 @@ fn compare(name: &str, shapes: Vec<Primitive>, extent: f32, rays: usize, r: &mut
             }
             bits
         });
-        assert_eq!(a, b, "{name}, {} shapes: {ray:?}", shapes.len());
+        assert_eq!(a, b, "{name}, {} shapes, plain instructions: {ray:?}", shapes.len());
+        assert_eq!(a, c, "{name}, {} shapes: {ray:?}", shapes.len());
         hits += usize::from(a.is_some());
     }
     assert!(shapes.is_empty() || hits > rays / 20, "{name}: only {hits} of {rays} rays hit");
@@ -165,4 +167,34 @@ fn centres_that_coincide() {
     let fan = (0..100).map(|_| r.in_cube()).collect::<Vec<_>>();
     let fan = fan.windows(2).map(|e| Primitive::Quad(Quad { corner: -(e[0] + e[1]) / 2.0, u: e[0], v: e[1] }));
     compare("fan", fan.collect(), 2.0, 5000, &mut r);
+}
+
+/// Long thin quads and triangles hinged on one short edge and nearly in one plane, seen in that plane from beyond the hinge:
+/// their distances are all the same but for errors larger than single precision's.
+#[test]
+fn fans_seen_edge_on() {
+    let mut r = Random::new(18);
+    for _ in 0..400 {
+        let size = r.pick(&[1.0, 1e3, 1e6]);
+        let thin = r.pick(&[1.0, 1e-3, 1e-4, 1e-5]) * size;
+        let (corner, hinge, wing) = (r.in_cube() * r.pick(&[0.0, size]), r.in_cube() * thin, r.in_cube() * size);
+        let jitter = r.pick(&[1e-8, 1e-7, 1e-6, 1e-4]) * size;
+        let blade = |_| {
+            let (u, v) = (hinge, wing * (r.unit() + 0.1) + r.in_cube() * jitter);
+            if r.below(2) == 0 {
+                Primitive::Quad(Quad { corner, u, v })
+            } else {
+                Primitive::Triangle(Triangle { a: corner, b: corner + u, c: corner + v })
+            }
+        };
+        let shapes: Vec<_> = (0..40).map(blade).collect();
+        let (tree, list) = (Bvh::build(shapes.clone()), Bvh::list(shapes));
+        for _ in 0..1000 {
+            let on_hinge = corner + hinge * r.unit();
+            let o = on_hinge - (wing + hinge * (r.unit() - 0.5)) * r.pick(&[1e-6, 1e-3, 1.0]);
+            let ray = Ray::new(o, on_hinge + wing * r.pick(&[0.0, 1e-7, 1e-5]) - o);
+            let [a, b] = [&tree, &list].map(|bvh| bvh.intersect(&ray).map(|h| (h.t.to_bits(), h.prim)));
+            assert_eq!(a, b, "{ray:?}");
+        }
+    }
 }

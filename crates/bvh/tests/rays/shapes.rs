@@ -60,6 +60,60 @@ fn sphere_from_all_sides() {
     assert_eq!(hit(unit, [0.0, 0.0, 3.0], [0.0, 0.0, 0.0]), None, "no direction");
 }
 
+/// Points that single precision has exactly: on the way out there is nothing, on the way in the far side.
+#[test]
+fn spheres_are_exact_on_the_surface() {
+    let mut r = Random::new(3);
+    for (p, radius) in
+        [([3.0, 4.0, 0.0], 5.0), ([2.0, -3.0, 6.0], 7.0), ([-1.0, 4.0, 8.0], 9.0), ([6.0, 7.0, -6.0], 11.0)]
+    {
+        let (p, sphere) = (Vec3::from(p), Primitive::Sphere(Sphere { center: Vec3::ZERO, radius }));
+        for _ in 0..10_000 {
+            let d = r.in_cube();
+            let (cos, hit) = (p.dot(d), hit(sphere, p.into(), d.into()));
+            if cos > 1e-3 {
+                assert_eq!(hit, None, "from {p} along {d}");
+            } else if cos < -1e-3 {
+                let far = -2.0 * cos / d.length_squared();
+                assert!(hit.is_some_and(|t| (t - far).abs() < 1e-4 * far), "from {p} along {d}: {hit:?}");
+            }
+        }
+    }
+}
+
+#[test]
+fn directions_may_have_any_length() {
+    let unit = Primitive::Sphere(Sphere { center: Vec3::ZERO, radius: 1.0 });
+    let floor = Primitive::Quad(Quad { corner: Vec3::NEG_Y, u: Vec3::X, v: Vec3::Z });
+    for length in [1e-18_f32, 1e-9, 1.0, 1e9, 1e18] {
+        for (shape, o) in [(unit, [0.0, 4.0, 0.0]), (floor, [0.0, 2.0, 0.0]), (floor, [1.0, 2.0, 1.0])] {
+            for zero in [0.0, -0.0] {
+                let t = hit(shape, o, [zero, -length, zero]).unwrap();
+                assert!((t * length - 3.0).abs() < 1e-6, "{length}: {t}");
+            }
+        }
+    }
+    let ground = Primitive::Quad(Quad { corner: Vec3::new(-1.0, 0.0, -1.0), u: Vec3::X * 2.0, v: Vec3::Z * 2.0 });
+    assert_eq!(hit(ground, [0.0, 1e-30, 0.0], [0.0, -1e30, 0.0]), None, "nearer than a distance can say");
+}
+
+/// Along an edge, in the plane of the shape, beside it: all that is left of the products is rounding.
+#[test]
+fn rays_in_the_plane_beside_a_shape_miss() {
+    let mut r = Random::new(4);
+    for _ in 0..100_000 {
+        let (u, v) = (r.in_cube(), r.in_cube());
+        let shape = if r.below(2) == 0 {
+            Primitive::Quad(Quad { corner: Vec3::ZERO, u, v })
+        } else {
+            Primitive::Triangle(Triangle { a: Vec3::ZERO, b: u, c: v })
+        };
+        let (o, d) = if r.below(2) == 0 { (2.0 * v, u) } else { (2.0 * u, v) };
+        let d = d * r.pick(&[1.0, -1.0]);
+        assert_eq!(hit(shape, o.into(), d.into()), None, "{shape:?} from {o} along {d}");
+    }
+}
+
 #[test]
 fn quad_edges_belong_to_it() {
     let floor = Primitive::Quad(Quad { corner: Vec3::ZERO, u: Vec3::X, v: Vec3::Z });

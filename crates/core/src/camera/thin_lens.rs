@@ -17,6 +17,7 @@ use glam::{Vec2, Vec3};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
+use crate::array::array;
 use crate::sampler::Sampler;
 use crate::sampling::uniform_disk;
 use crate::validate::Checker;
@@ -26,10 +27,13 @@ use crate::validate::Checker;
 #[serde(deny_unknown_fields, default)]
 pub struct CameraDesc {
     /// The eye, metres.
+    #[serde(deserialize_with = "array")]
     pub look_from: [f32; 3],
     /// A point in the middle of the picture, metres.
+    #[serde(deserialize_with = "array")]
     pub look_at: [f32; 3],
     /// What is upwards in the picture.
+    #[serde(deserialize_with = "array")]
     pub up: [f32; 3],
     /// Vertical field of view, degrees, 0..180.
     #[schemars(range(min = 0.001, max = 179.0))]
@@ -71,7 +75,11 @@ impl CameraDesc {
                 "`look_from` and `look_at` are the same point, so the camera looks nowhere",
                 Some("move one of them".to_owned()),
             );
-        } else if (at - from).normalize_or_zero().cross(up.normalize_or_zero()).length() < 1e-6 && up != Vec3::ZERO {
+        } else if from.is_finite()
+            && at.is_finite()
+            && up != Vec3::ZERO
+            && (at - from).normalize_or_zero().cross(up.normalize_or_zero()).length() < 1e-6
+        {
             c.problem("up", "`up` points along the line of sight", Some("try up = [0, 0, 1]".to_owned()));
         }
         if let Some(aperture) = self.aperture.filter(|&a| a != 0.0) {
@@ -112,7 +120,7 @@ impl ThinLens {
     pub fn new(desc: &CameraDesc, width: u32, height: u32) -> Self {
         let (eye, at) = (Vec3::from(desc.look_from), Vec3::from(desc.look_at));
         let forward = (at - eye).normalize();
-        let right = forward.cross(Vec3::from(desc.up)).normalize();
+        let right = forward.cross(Vec3::from(desc.up).normalize()).normalize();
         let down = forward.cross(right);
         let focus = desc.focus_distance.unwrap_or_else(|| at.distance(eye));
         let half_tan = |degrees: f32| libm::tanf(0.5 * degrees.to_radians());

@@ -5,15 +5,15 @@
 
 use std::ops::AddAssign;
 
-/// A sum in multiples of 2⁻⁶⁴; holds 2³¹ numbers below [`Exact::LIMIT`].
+/// A sum in multiples of 2⁻⁶⁴; holds 2³¹ numbers below [`Exact::LIMIT`], or 2²⁴ below 2³⁸.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub(super) struct Exact(i128);
 
 impl Exact {
-    /// Numbers must be smaller than this.
+    /// Samples must be smaller than this.
     pub(super) const LIMIT: f32 = 4_294_967_296.0;
 
-    /// Rounds towards zero. Numbers of [`LIMIT`](Self::LIMIT) and above, or not finite, have no meaning here.
+    /// Rounds towards zero. Numbers of 2³⁸ and above, or not finite, have no meaning here.
     #[inline]
     pub(super) fn new(x: f32) -> Self {
         let bits = x.to_bits();
@@ -21,7 +21,7 @@ impl Exact {
         let fraction = i128::from(bits & 0x7f_ffff | u32::from(exponent != 0) << 23);
         // x = fraction · 2^(exponent − 150), and a denormal rounds to 0 at any rate.
         let shift = exponent - 150 + 64;
-        let size = if shift >= 0 { fraction << shift.min(72) } else { fraction >> (-shift).min(127) };
+        let size = if shift >= 0 { fraction << shift.min(100) } else { fraction >> (-shift).min(127) };
         Self(if x < 0.0 { -size } else { size })
     }
 

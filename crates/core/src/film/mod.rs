@@ -148,6 +148,17 @@ mod tests {
     }
 
     #[test]
+    fn knows_its_error_in_the_dark_and_in_the_light() {
+        for scale in [1e-7_f32, 1e-3, 1e3, 1e5] {
+            let mut film = Film::new(8, 8);
+            fill(&mut film, &[0.5, 1.5, 0.5, 1.5].map(|s| s * scale));
+            let expected = (1.0_f64 / 12.0).sqrt() / 1.01;
+            let error = film.error().unwrap().mean;
+            assert!((error - expected).abs() < 1e-3, "{error} at {scale}");
+        }
+    }
+
+    #[test]
     fn drops_and_counts_what_is_no_number() {
         let mut film = Film::new(1, 1);
         fill(&mut film, &[1.0, f32::NAN, f32::INFINITY, 1e30, 3.0]);

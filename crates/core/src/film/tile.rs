@@ -9,14 +9,14 @@ use crate::film::exact::Exact;
 #[derive(Clone, Copy, Debug, Default)]
 pub struct PixelSum {
     rgb: [Exact; 3],
-    /// Of (luminance / [`SCALE`])².
+    /// Of the squares of luminances up to [`BRIGHTEST_SQUARED`].
     luminance_sq: Exact,
     count: u32,
     dropped: u32,
 }
 
-/// Brings the squares of numbers below 2³² below 2³² again.
-const SCALE: f32 = 65_536.0;
+/// Brighter samples count as this bright in the estimate of the error: 2²⁴ such squares fit into the sum.
+const BRIGHTEST_SQUARED: f32 = 524_288.0;
 
 impl PixelSum {
     /// Adds one sample. What is not finite, or beyond ±2³², is dropped and counted.
@@ -24,7 +24,7 @@ impl PixelSum {
     pub fn add(&mut self, l: Spectrum) {
         let rgb = l.to_rgb();
         if rgb.iter().all(|c| c.abs() < Exact::LIMIT) {
-            let y = Rgb(rgb).luminance() / SCALE;
+            let y = Rgb(rgb).luminance().min(BRIGHTEST_SQUARED);
             for (sum, c) in self.rgb.iter_mut().zip(rgb) {
                 *sum += Exact::new(c);
             }
@@ -63,7 +63,7 @@ impl PixelSum {
     /// The standard error of the mean luminance; none below two samples.
     pub fn standard_error(&self) -> Option<f64> {
         let n = f64::from(self.count);
-        let square = self.luminance_sq.to_f64() * f64::from(SCALE) * f64::from(SCALE) / n;
+        let square = self.luminance_sq.to_f64() / n;
         let variance = (square - self.luminance().powi(2)).max(0.0) / (n - 1.0);
         (self.count >= 2).then_some(variance.sqrt())
     }

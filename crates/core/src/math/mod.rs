@@ -8,4 +8,4 @@ mod trig;
 pub use frame::Frame;
 pub use offset::offset_ray_origin;
 pub use reflect::{reflect, refract};
-pub use trig::sin_cos_turns;
+pub use trig::{sin_cos_eighth, sin_cos_turns};

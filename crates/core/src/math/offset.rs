@@ -9,18 +9,34 @@ use glam::Vec3;
 /// at most `p_error`.
 #[inline]
 pub fn offset_ray_origin(p: Vec3, p_error: Vec3, n: Vec3, w: Vec3) -> Vec3 {
-    let d = n.abs().dot(p_error);
-    let offset = if w.dot(n) < 0.0 { -d * n } else { d * n };
-    let moved = p + offset;
-    // Round away from the surface.
-    let away = |x: f32, by: f32| {
-        if by > 0.0 {
-            x.next_up()
-        } else if by < 0.0 {
-            x.next_down()
-        } else {
-            x
+    // The sum below is rounded too, by at most half of this.
+    let rounding = p.abs() * f32::EPSILON;
+    let d = n.abs().dot(p_error + rounding);
+    p + n * d.copysign(w.dot(n))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use proptest::prelude::*;
+    use proptest::test_runner::RngSeed;
+
+    proptest! {
+        #![proptest_config(ProptestConfig { rng_seed: RngSeed::Fixed(1), failure_persistence: None, ..Default::default() })]
+
+        /// The origin is on the side of `w`, farther from the surface than the point may be off, whatever was rounded.
+        #[test]
+        fn leaves_the_error_behind(
+            p in prop::array::uniform3(-1.0f32..1.0),
+            n in prop::array::uniform3(-1.0f32..1.0),
+            w in prop::array::uniform3(-1.0f32..1.0),
+            scale in prop::sample::select(vec![1e-6f32, 1.0, 1e6]),
+        ) {
+            let (p, n, w) = (Vec3::from(p) * scale, Vec3::from(n).normalize_or(Vec3::Y), Vec3::from(w));
+            let p_error = p.abs() * f32::EPSILON;
+            let moved = (offset_ray_origin(p, p_error, n, w).as_dvec3() - p.as_dvec3()).dot(n.as_dvec3());
+            let needed = p_error.as_dvec3().dot(n.abs().as_dvec3());
+            prop_assert!(moved.abs() >= needed && (moved > 0.0) == (w.dot(n) >= 0.0), "{moved} of {needed}");
         }
-    };
-    Vec3::new(away(moved.x, offset.x), away(moved.y, offset.y), away(moved.z, offset.z))
+    }
 }

@@ -6,18 +6,28 @@
 /// (sin 2πu, cos 2πu) for u in -1..1.
 #[inline]
 pub fn sin_cos_turns(u: f32) -> (f32, f32) {
+    /// A sum with this has no room for a fraction: it is rounded to a whole number, which its last bits show.
+    const WHOLE: f32 = 12_582_912.0;
     // u = quarter / 4 + rest with |rest| <= 1/8.
-    let quarter = (u * 4.0 + 0.5).floor();
-    let x = (u - quarter * 0.25) * std::f32::consts::TAU;
-    let x_sq = x * x;
-    let sin = x * (1.0 + x_sq * (-1.0 / 6.0 + x_sq * (1.0 / 120.0 + x_sq * (-1.0 / 5040.0 + x_sq / 362_880.0))));
-    let cos = 1.0 + x_sq * (-0.5 + x_sq * (1.0 / 24.0 + x_sq * (-1.0 / 720.0 + x_sq * (1.0 / 40320.0))));
-    match quarter as i32 & 3 {
+    let quarter = u * 4.0 + WHOLE;
+    let (sin, cos) = sin_cos_eighth(u - (quarter - WHOLE) * 0.25);
+    match quarter.to_bits() & 3 {
         0 => (sin, cos),
         1 => (cos, -sin),
         2 => (-sin, -cos),
         _ => (-cos, sin),
     }
+}
+
+/// (sin 2πu, cos 2πu) for u in -1/8..=1/8.
+#[inline]
+pub fn sin_cos_eighth(u: f32) -> (f32, f32) {
+    let x = u * std::f32::consts::TAU;
+    let x_sq = x * x;
+    let sin =
+        x * (1.0 + x_sq * (-1.0 / 6.0 + x_sq * (1.0 / 120.0 + x_sq * (-1.0 / 5040.0 + x_sq * (1.0 / 362_880.0)))));
+    let cos = 1.0 + x_sq * (-0.5 + x_sq * (1.0 / 24.0 + x_sq * (-1.0 / 720.0 + x_sq * (1.0 / 40320.0))));
+    (sin, cos)
 }
 
 #[cfg(test)]

@@ -2,7 +2,7 @@
 
 use glam::{Vec2, Vec3};
 
-use crate::math::sin_cos_turns;
+use crate::math::{sin_cos_eighth, sin_cos_turns};
 
 /// A uniform point of the unit disk. The concentric map keeps neighbours together.
 ///
@@ -13,10 +13,11 @@ pub fn uniform_disk(u: Vec2) -> Vec2 {
     if o == Vec2::ZERO {
         return Vec2::ZERO;
     }
-    // The polar coordinates of the square's ring that the point lies on; the angle counts in turns.
-    let (r, turns) = if o.x.abs() > o.y.abs() { (o.x, o.y / o.x / 8.0) } else { (o.y, 0.25 - o.x / o.y / 8.0) };
-    let (sin, cos) = sin_cos_turns(turns);
-    r * Vec2::new(cos, sin)
+    // The polar coordinates of the square's ring that the point lies on: the angle from the nearer axis counts in turns.
+    let steep = o.y.abs() > o.x.abs();
+    let (r, across) = if steep { (o.y, o.x) } else { (o.x, o.y) };
+    let (sin, cos) = sin_cos_eighth(across / r / 8.0);
+    if steep { r * Vec2::new(sin, cos) } else { r * Vec2::new(cos, sin) }
 }
 
 /// A direction of the upper hemisphere with density cos θ / π (Malley's method).

@@ -12,6 +12,7 @@ use glam::Vec3;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
+use crate::array::arrays;
 use crate::shape::{ShapeDesc, SurfacePoint};
 use crate::validate::Checker;
 
@@ -20,8 +21,10 @@ use crate::validate::Checker;
 #[serde(deny_unknown_fields)]
 pub struct MeshDesc {
     /// Vertices, metres.
+    #[serde(deserialize_with = "arrays")]
     pub vertices: Vec<[f32; 3]>,
     /// Three indices into `vertices` each. Triangles without area are never hit.
+    #[serde(deserialize_with = "arrays")]
     pub triangles: Vec<[u32; 3]>,
     /// Name of a material; grey matte if absent.
     #[serde(default)]
@@ -31,8 +34,14 @@ pub struct MeshDesc {
 impl ShapeDesc for MeshDesc {
     fn check(&self, c: &mut Checker) {
         c.within("vertices", |c| {
-            for (i, vertex) in self.vertices.iter().enumerate().filter(|(_, v)| v.iter().any(|x| !x.is_finite())) {
-                c.problem(i, format!("vertex {i} is {vertex:?}"), Some("use finite numbers".to_owned()));
+            for (i, vertex) in
+                self.vertices.iter().enumerate().filter(|(_, v)| !v.iter().copied().all(Checker::is_finite))
+            {
+                c.problem(
+                    i,
+                    format!("vertex {i} is {vertex:?}"),
+                    Some("numbers up to 1e15 in size are allowed".to_owned()),
+                );
             }
         });
         let count = self.vertices.len();

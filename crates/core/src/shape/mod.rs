@@ -6,7 +6,7 @@ mod mesh;
 mod quad;
 mod sphere;
 
-use eyebeam_bvh::{Hit, Primitive, Ray};
+use eyebeam_bvh::{Bvh, Hit, Primitive, Ray};
 use glam::{DVec3, Vec3};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
@@ -37,6 +37,16 @@ impl ShapesDesc {
             shapes.iter().enumerate().map(move |(i, shape)| (kind, i, shape as &dyn ShapeDesc))
         }
         all("sphere", &self.sphere).chain(all("quad", &self.quad)).chain(all("mesh", &self.mesh))
+    }
+
+    /// Notes if there are more primitives than can be sorted for rays.
+    pub(crate) fn check_count(&self, c: &mut Checker) {
+        let triangles: usize = self.mesh.iter().map(|mesh| mesh.triangles.len()).sum();
+        let count = self.sphere.len() + self.quad.len() + triangles;
+        if count > Bvh::MAX_PRIMITIVES {
+            let hint = format!("at most {} are allowed", Bvh::MAX_PRIMITIVES);
+            c.problem("mesh", format!("the scene has {count} spheres, quads and triangles"), Some(hint));
+        }
     }
 }
 

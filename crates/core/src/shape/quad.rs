@@ -13,6 +13,7 @@ use glam::Vec3;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
+use crate::array::array;
 use crate::shape::{ShapeDesc, SurfacePoint};
 use crate::validate::Checker;
 
@@ -21,10 +22,13 @@ use crate::validate::Checker;
 #[serde(deny_unknown_fields)]
 pub struct QuadDesc {
     /// A corner, metres.
+    #[serde(deserialize_with = "array")]
     pub corner: [f32; 3],
     /// Edge from the corner, metres.
+    #[serde(deserialize_with = "array")]
     pub u: [f32; 3],
     /// The other edge from the corner, metres.
+    #[serde(deserialize_with = "array")]
     pub v: [f32; 3],
     /// Name of a material; grey matte if absent.
     #[serde(default)]

@@ -12,6 +12,7 @@ use glam::Vec3;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
+use crate::array::array;
 use crate::shape::{ShapeDesc, SurfacePoint};
 use crate::validate::Checker;
 
@@ -20,7 +21,7 @@ use crate::validate::Checker;
 #[serde(deny_unknown_fields)]
 pub struct SphereDesc {
     /// Centre, metres.
-    #[serde(default)]
+    #[serde(default, deserialize_with = "array")]
     pub center: [f32; 3],
     /// Radius, metres, above 0. Large ones (1e5, for a ground) are as accurate as small ones.
     pub radius: f32,

@@ -72,6 +72,23 @@ fn rectangle_over_a_floor() {
     assert_luminance(&film, f64::from(0.8_f32) * 4.0 * form_factor);
 }
 
+/// A pixel is the square around its centre: the border of a lamp through the middle of the picture halves the middle pixels.
+#[test]
+fn pixels_are_where_they_should_be() {
+    const SPP: u32 = 4096;
+    let mut desc = scene(DARK, lamp(1.0), look([0.0, 0.0, 3.0], [0.0; 3], 20.0));
+    let halves = [[[10.0, 0.0, 0.0], [0.0, 20.0, 0.0]], [[20.0, 0.0, 0.0], [0.0, 10.0, 0.0]]];
+    for (axis, corner) in [(0, [0.0, -10.0, 0.0]), (1, [-10.0, 0.0, 0.0])] {
+        let [u, v] = halves[axis];
+        desc.shape.quad = vec![QuadDesc { corner, u, v, material: Some("it".to_owned()) }];
+        let image = render(&desc, settings(5, SPP, 1)).develop();
+        // The lamp is on the right, and then above.
+        let expected = |x: u32, y: u32| [0.0, 0.0, 0.5, 1.0, 1.0][[x, 4 - y][axis] as usize];
+        let error = |x: u32, y: u32| (expected(x, y) * (1.0 - expected(x, y)) / f64::from(SPP)).sqrt();
+        z_test(&image, expected, error, 1).unwrap();
+    }
+}
+
 /// One edge shows only what shines; a lamp shines on the side of its normal, whatever the depth.
 #[test]
 fn lamps_shine_forwards() {

@@ -35,6 +35,17 @@ fn glass_vanishes() {
     }
 }
 
+/// Under water the sky is brighter by eta²: the same light comes from a smaller solid angle.
+#[test]
+fn glass_is_brighter_inside() {
+    for eta in [1.33_f32, 1.5, 2.42] {
+        let glass = MaterialDesc::Dielectric(Dielectric { eta });
+        let mut desc = scene(WHITE, glass, look([0.1, 0.0, 0.0], [0.0, 0.0, -1.0], 90.0));
+        desc.shape.sphere.push(sphere([0.0; 3], 1.0));
+        assert_everywhere(&render(&desc, settings(16, 16, 1000)), eta * eta, 1e-6, "inside");
+    }
+}
+
 /// Inside a glowing ball every path brings e (1 + a + a² + ...), one term an edge; the eye is in it too.
 #[test]
 fn paths_have_as_many_edges_as_allowed() {

@@ -6,6 +6,7 @@ mod png;
 
 use std::path::Path;
 
+use eyebeam_core::color::srgb_encode;
 use eyebeam_core::film::Image;
 
 use crate::error::Error;
@@ -49,6 +50,12 @@ impl ImageFormat {
             Self::Hdr => hdr::encode(image),
         }
     }
+}
+
+/// The picture as screens show it: 8 bit sRGB, three bytes a pixel, row by row.
+pub fn srgb_bytes(image: &Image) -> Vec<u8> {
+    let byte = |linear: f32| (srgb_encode(linear.clamp(0.0, 1.0)) * 255.0).round() as u8;
+    image.pixels().iter().flatten().map(|&c| byte(c)).collect()
 }
 
 /// JSON in ASCII alone, which every text field takes.

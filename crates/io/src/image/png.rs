@@ -1,12 +1,10 @@
 //! PNG: 8 bit sRGB, as screens show it.
 
-use std::borrow::Cow;
-
-use eyebeam_core::color::srgb_encode;
 use eyebeam_core::film::Image;
 use png::{BitDepth, ColorType, Compression, Encoder, EncodingError, SrgbRenderingIntent};
 
 use crate::error::Error;
+use crate::image::srgb_bytes;
 
 pub(super) fn encode(image: &Image, provenance: &str) -> Result<Vec<u8>, Error> {
     let mut bytes = Vec::new();
@@ -22,12 +20,7 @@ fn write(image: &Image, provenance: &str, bytes: &mut Vec<u8>) -> Result<(), Enc
     encoder.set_source_srgb(SrgbRenderingIntent::Perceptual);
     encoder.add_text_chunk("Software".to_owned(), format!("Eyebeam {}", env!("CARGO_PKG_VERSION")))?;
     encoder.add_itxt_chunk("eyebeam".to_owned(), provenance.to_owned())?;
-    let pixels: Cow<'_, [u8]> = image.pixels().iter().flatten().map(|&c| to_byte(c)).collect();
-    encoder.write_header()?.write_image_data(&pixels)
-}
-
-fn to_byte(linear: f32) -> u8 {
-    (srgb_encode(linear.clamp(0.0, 1.0)) * 255.0).round() as u8
+    encoder.write_header()?.write_image_data(&srgb_bytes(image))
 }
 
 #[cfg(test)]

@@ -8,26 +8,34 @@ use toml::de::{DeArray, DeString, DeTable, DeValue};
 pub(super) type Value<'a> = Spanned<DeValue<'a>>;
 pub(super) type Table<'a> = DeTable<'a>;
 
-/// The same table with all spans moved by `base`.
-pub(super) fn shift_table(table: Table<'_>, base: usize) -> Table<'_> {
-    table.into_iter().map(|(key, value)| (shift(key, base, |k| k), shift_value(value, base))).collect()
+/// The same table with each span changed.
+pub(super) fn map_spans<'a>(table: Table<'a>, map: &mut impl FnMut(Range<usize>) -> Range<usize>) -> Table<'a> {
+    let mut mapped = Table::new();
+    for (key, value) in table {
+        let key = Spanned::new(map(key.span()), key.into_inner());
+        mapped.insert(key, map_value_spans(value, map));
+    }
+    mapped
 }
 
-fn shift_value(value: Value<'_>, base: usize) -> Value<'_> {
-    shift(value, base, |v| match v {
+/// As [`map_spans`].
+pub(super) fn map_value_spans<'a>(value: Value<'a>, map: &mut impl FnMut(Range<usize>) -> Range<usize>) -> Value<'a> {
+    let span = map(value.span());
+    let inner = match value.into_inner() {
         DeValue::Array(items) => {
-            let mut shifted = DeArray::new();
-            items.into_iter().for_each(|item| shifted.push(shift_value(item, base)));
-            DeValue::Array(shifted)
+            let mut mapped = DeArray::new();
+            items.into_iter().for_each(|item| mapped.push(map_value_spans(item, map)));
+            DeValue::Array(mapped)
         }
-        DeValue::Table(table) => DeValue::Table(shift_table(table, base)),
+        DeValue::Table(table) => DeValue::Table(map_spans(table, map)),
         scalar => scalar,
-    })
+    };
+    Spanned::new(span, inner)
 }
 
-fn shift<T>(spanned: Spanned<T>, base: usize, inner: impl FnOnce(T) -> T) -> Spanned<T> {
-    let Range { start, end } = spanned.span();
-    Spanned::new(start + base..end + base, inner(spanned.into_inner()))
+/// Moves spans for [`map_spans`].
+pub(super) fn shift_by(base: usize) -> impl FnMut(Range<usize>) -> Range<usize> {
+    move |span| span.start + base..span.end + base
 }
 
 /// Puts the including file's table over an included one: settings and materials by name, shapes add up.

@@ -1,6 +1,8 @@
 //! Scene files.
 
+mod explain;
 mod merge;
+mod nesting;
 mod source;
 mod toml;
 

@@ -10,11 +10,14 @@ use toml::Spanned;
 use toml::de::{DeTable, DeValue};
 
 use crate::error::{Diagnostic, Error, Place};
+use crate::scene::nesting;
 
-/// Longer scene files are refused; geometry of that size belongs into mesh files.
-const MAX_BYTES: u64 = 256 << 20;
+/// Longer scenes are refused: reading takes up to ninety times as much memory.
+const MAX_BYTES: u64 = 64 << 20;
 /// Files that include files that include files.
 const MAX_INCLUDE_DEPTH: usize = 16;
+/// Files of a scene; one counts as often as it is included.
+const MAX_FILES: usize = 1000;
 
 /// All texts of a scene.
 #[derive(Default)]
@@ -68,10 +71,14 @@ impl Sources {
 
     /// Adds a text; returns its index.
     pub(super) fn add(&mut self, name: String, text: String) -> usize {
-        // One more than the length: the end of a text is a place, too.
-        let base = self.texts.last().map_or(0, |s| s.base + s.text.len() + 1);
+        let base = self.length();
         self.texts.push(Source { name, text, base, includes: Vec::new() });
         self.texts.len() - 1
+    }
+
+    /// Of all texts; one more than each, because the end of a text is a place, too.
+    pub(super) fn length(&self) -> usize {
+        self.texts.last().map_or(0, |s| s.base + s.text.len() + 1)
     }
 
     pub(super) fn get(&self, index: usize) -> &Source {
@@ -86,18 +93,27 @@ impl Sources {
         open: &mut Vec<PathBuf>,
     ) -> Result<usize, Error> {
         let (table, errors) = DeTable::parse_recoverable(&text);
-        let names: Vec<(Range<usize>, String)> = match table.get_ref().get("include").map(Spanned::get_ref) {
+        let mut root = DeValue::Table(table.into_inner());
+        let too_deep = nesting::cut(&mut root);
+        let names: Vec<(Range<usize>, String)> = match root.get("include").map(Spanned::get_ref) {
             Some(DeValue::Array(names)) => {
                 names.iter().filter_map(|n| Some((n.span(), n.get_ref().as_str()?.to_owned()))).collect()
             }
             _ => Vec::new(),
         };
-        let is_valid = errors.is_empty();
+        let is_valid = errors.is_empty() && too_deep.is_none();
         let index = self.add(name, text.clone());
         let base = self.texts[index].base;
         for error in errors {
             let Range { start, end } = error.span().unwrap_or_default();
-            self.report(start + base..end + base, error.message().replace('\n', ", "), None);
+            let mut message = error.message().replace('\n', ", ");
+            if let ("duplicate key", Some(key)) = (error.message(), text.get(start..end)) {
+                message += &format!(" `{key}`");
+            }
+            self.report(start + base..end + base, message, None);
+        }
+        if let Some(Range { start, end }) = too_deep {
+            self.report(start + base..end + base, "nested too deeply".to_owned(), None);
         }
         for (span, name) in names.into_iter().filter(|_| is_valid) {
             match self.include(&name, folder, open) {
@@ -137,10 +153,17 @@ impl Sources {
         if open.len() >= MAX_INCLUDE_DEPTH {
             return refuse(format!("`{name}` is at the end of a chain of {MAX_INCLUDE_DEPTH} files"), "include fewer");
         }
-        let text = read_text(&real).map_err(|e| match e {
+        if self.texts.len() >= MAX_FILES {
+            return refuse(format!("`{name}` would be one of more than {MAX_FILES} files"), "include fewer");
+        }
+        let text = text_of(&path, read_file(&real)).map_err(|e| match e {
             Error::Io { source, .. } => unreadable(source),
             other => Refusal::There(other),
         })?;
+        if (self.length() + text.len()) as u64 > MAX_BYTES {
+            let message = format!("with `{name}` the scene is longer than {} MiB", MAX_BYTES >> 20);
+            return refuse(message, "include fewer or smaller files");
+        }
         open.push(real);
         let index = self.load_text(path.display().to_string(), text, path.parent(), open).map_err(Refusal::There);
         open.pop();
@@ -157,14 +180,10 @@ impl Sources {
     }
 
     fn place(&self, offset: usize) -> Option<Place> {
-        let source = self.texts.iter().rev().find(|s| s.base <= offset)?;
+        let source = self.texts.iter().rev().find(|s| s.base <= offset && offset - s.base <= s.text.len())?;
         let before = source.text.get(..offset - source.base).unwrap_or(&source.text);
-        let line_start = before.rfind('\n').map_or(0, |i| i + 1);
-        Some(Place {
-            file: source.name.clone(),
-            line: before.matches('\n').count() + 1,
-            column: before[line_start..].chars().count() + 1,
-        })
+        let (line, column) = line_and_column(before);
+        Some(Place { file: source.name.clone(), line, column })
     }
 }
 
@@ -185,31 +204,53 @@ pub(super) fn into_error(mut problems: Vec<Problem>) -> Error {
 }
 
 /// The text of a file, or of standard input for `-`.
-pub(super) fn read_text(path: &Path) -> Result<String, Error> {
-    let mut bytes = Vec::new();
-    if path == Path::new("-") {
-        stdin().lock().take(MAX_BYTES + 1).read_to_end(&mut bytes)
-    } else {
-        File::open(path).and_then(|file| file.take(MAX_BYTES + 1).read_to_end(&mut bytes))
-    }
-    .map_err(|e| Error::read(path, e))?;
-    let refuse = |message: String, line: usize, column: usize, hint: &str| {
+fn read_text(path: &Path) -> Result<String, Error> {
+    let bytes = if path == Path::new("-") { read_all(stdin().lock()) } else { read_file(path) };
+    text_of(path, bytes)
+}
+
+/// What was read from a file as a text; none is too long.
+fn text_of(path: &Path, bytes: std::io::Result<Option<Vec<u8>>>) -> Result<String, Error> {
+    let refuse = |message: String, (line, column), hint: &str| {
         let place = Some(Place { file: path.display().to_string(), line, column });
-        Error::Scene(vec![Diagnostic { message, place, hint: Some(hint.to_owned()) }])
+        Err(Error::Scene(vec![Diagnostic { message, place, hint: Some(hint.to_owned()) }]))
     };
-    if bytes.len() as u64 > MAX_BYTES {
+    let Some(bytes) = bytes.map_err(|e| Error::read(path, e))? else {
         let message = format!("the scene file is longer than {} MiB", MAX_BYTES >> 20);
-        return Err(refuse(message, 1, 1, "is it a scene file at all?"));
+        return refuse(message, (1, 1), "is it a scene file at all?");
+    };
+    match String::from_utf8(bytes) {
+        Ok(text) => {
+            // The mark that some editors put first takes no column.
+            let text = text.strip_prefix('\u{feff}').map(str::to_owned).unwrap_or(text);
+            if text.trim_ascii().is_empty() {
+                return refuse("the scene file is empty".to_owned(), (1, 1), "begin with [[shape.sphere]]");
+            }
+            Ok(text)
+        }
+        Err(e) => {
+            let (valid, rest) = e.as_bytes().split_at(e.utf8_error().valid_up_to());
+            let byte = rest.first().copied().unwrap_or_default();
+            let place = line_and_column(&String::from_utf8_lossy(valid));
+            refuse(format!("byte 0x{byte:02x} is not UTF-8"), place, "scene files are UTF-8 text")
+        }
     }
-    if bytes.iter().all(u8::is_ascii_whitespace) {
-        return Err(refuse("the scene file is empty".to_owned(), 1, 1, "begin with [[shape.sphere]]"));
-    }
-    String::from_utf8(bytes).map_err(|e| {
-        let valid = &e.as_bytes()[..e.utf8_error().valid_up_to()];
-        let line_start = valid.iter().rposition(|&b| b == b'\n').map_or(0, |i| i + 1);
-        let line = valid.iter().filter(|&&b| b == b'\n').count() + 1;
-        let column = String::from_utf8_lossy(&valid[line_start..]).chars().count() + 1;
-        let byte = e.as_bytes().get(valid.len()).copied().unwrap_or_default();
-        refuse(format!("byte 0x{byte:02x} is not UTF-8"), line, column, "scene files are UTF-8 text")
-    })
+}
+
+fn read_file(path: &Path) -> std::io::Result<Option<Vec<u8>>> {
+    let file = File::open(path)?;
+    if file.metadata()?.len() > MAX_BYTES { Ok(None) } else { read_all(file) }
+}
+
+/// All bytes; none if they are more than [`MAX_BYTES`].
+fn read_all(source: impl Read) -> std::io::Result<Option<Vec<u8>>> {
+    let mut bytes = Vec::new();
+    source.take(MAX_BYTES + 1).read_to_end(&mut bytes)?;
+    Ok((bytes.len() as u64 <= MAX_BYTES).then_some(bytes))
+}
+
+/// Of the character after a text, from 1.
+fn line_and_column(before: &str) -> (usize, usize) {
+    let line_start = before.rfind('\n').map_or(0, |i| i + 1);
+    (before.matches('\n').count() + 1, before[line_start..].chars().count() + 1)
 }

@@ -2,7 +2,7 @@
 
 mod stats;
 
-use std::path::{Path, PathBuf};
+use std::path::PathBuf;
 use std::sync::atomic::Ordering::Relaxed;
 use std::sync::mpsc::{RecvTimeoutError, channel};
 use std::thread;
@@ -56,8 +56,10 @@ pub(super) fn run(args: &RenderArgs) -> Result<(), Error> {
     let clock = Instant::now();
     session.write_picture()?;
     phases.write = clock.elapsed().as_secs_f64();
-    session.report(&phases, rays, signals.end())?;
-    signals.end().map_or(Ok(()), |signal| Err(Error::Signal(signal)))
+    // A signal that came too late to stop anything is no news.
+    let signal = signals.end().filter(|_| !session.render.is_done());
+    session.report(&phases, rays, signal)?;
+    signal.map_or(Ok(()), |signal| Err(Error::Signal(signal)))
 }
 
 /// The scene with the command line's settings in it.
@@ -72,9 +74,12 @@ fn describe(args: &RenderArgs) -> Result<SceneDesc, Error> {
     Ok(desc)
 }
 
-/// Film and picture, and the encoded file, which is no larger than that.
+/// Film and picture, and the encoded file.
 fn check_memory(settings: &Settings, allowed: u64) -> Result<(), Error> {
-    let needed = Film::bytes(settings.width, settings.height);
+    // 16 bytes a pixel and format at most, and as much again while the file grows or its pixels are copied.
+    const ENCODING: u64 = 32;
+    let pixels = u64::from(settings.width) * u64::from(settings.height);
+    let needed = Film::bytes(settings.width, settings.height) + ENCODING * pixels;
     if needed > allowed { Err(Error::Memory { needed, allowed }) } else { Ok(()) }
 }
 
@@ -88,9 +93,15 @@ impl Output {
     fn new(args: &RenderArgs) -> Result<Self, Error> {
         let path = args.output.clone().unwrap_or_else(|| {
             let stem = args.scene.file_stem().filter(|_| !is_standard(&args.scene)).unwrap_or("out".as_ref());
-            Path::new(stem).with_extension("png")
+            let mut name = stem.to_owned();
+            name.push(".png");
+            name.into()
         });
         let format = if is_standard(&path) { ImageFormat::Png } else { ImageFormat::from_path(&path)? };
+        let is_scene = |stats: &PathBuf| *stats == args.scene && !is_standard(stats);
+        if args.stats.as_ref().is_some_and(|stats| *stats == path || is_scene(stats)) {
+            return Err(Error::Usage("--stats needs a name of its own".to_owned()));
+        }
         Ok(Self { path, format })
     }
 
@@ -119,8 +130,12 @@ impl Session<'_> {
             let error = self.error.map(|e| e.mean);
             self.watched_step(&monitor, signals, &mut progress, error);
             monitor.pause.store(false, Relaxed);
+            // A short step ends before anything has looked.
+            progress.update(self.state(&monitor, error));
             if signals.take_write() {
-                self.write_picture()?;
+                self.error = self.render.film().error();
+                // What can be written later is not to be lost now.
+                self.write_picture().unwrap_or_else(|e| say(&e.to_string()));
             }
             if estimated.elapsed() > Duration::from_secs(1) {
                 self.error = self.render.film().error();

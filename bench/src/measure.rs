@@ -1,0 +1,62 @@
+//! What is measured, and on what.
+
+use std::hint::black_box;
+use std::num::NonZeroUsize;
+use std::path::Path;
+use std::time::Duration;
+
+use cpu_time::ThreadTime;
+use eyebeam_core::desc::SceneDesc;
+use eyebeam_core::film::Film;
+use eyebeam_core::render::{Monitor, Render, Settings};
+use eyebeam_core::scene::Scene;
+use eyebeam_io::Error;
+
+/// A scene of this repository, by its name.
+///
+/// # Errors
+/// If there is none, or it cannot be read.
+pub fn read_scene(name: &str) -> Result<SceneDesc, Error> {
+    let scenes = Path::new(concat!(env!("CARGO_MANIFEST_DIR"), "/../scenes"));
+    eyebeam_io::scene::read(&scenes.join(name).with_extension("toml"), &[])
+}
+
+/// Makes a picture so small that measuring it takes little time: as wide as asked, of the scene's own proportions.
+pub fn shrink(desc: &mut SceneDesc, width: u32, spp: u32) {
+    let render = &mut desc.render;
+    render.height = (width * render.height).div_ceil(render.width);
+    render.width = width;
+    render.spp = spp;
+}
+
+/// Samples in the whole picture.
+pub fn samples(desc: &SceneDesc) -> u64 {
+    let render = &desc.render;
+    u64::from(render.width) * u64::from(render.height) * u64::from(render.spp)
+}
+
+/// Renders the whole picture, as the command does.
+pub fn render(scene: &Scene, desc: &SceneDesc, threads: NonZeroUsize) -> (Film, Monitor) {
+    let mut render = Render::new(scene, Settings { threads, ..Settings::from(&desc.render) });
+    let monitor = Monitor::default();
+    while !render.is_done() {
+        render.step(&monitor);
+    }
+    (render.film().clone(), monitor)
+}
+
+/// The processor time that this thread spends in `work`, which other programs do not add to.
+pub fn thread_time<T>(work: impl FnOnce() -> T) -> Duration {
+    let start = ThreadTime::now();
+    black_box(work());
+    start.elapsed()
+}
+
+/// The value in the middle.
+///
+/// # Panics
+/// If there is none.
+pub fn median(mut values: Vec<f64>) -> f64 {
+    let middle = values.len() / 2;
+    *values.select_nth_unstable_by(middle, f64::total_cmp).1
+}
