@@ -356,7 +356,7 @@ mod tests {
     #[test]
     fn draws_what_the_renderer_draws() {
         let mut desc = scene();
-        measure::shrink(&mut desc, 64, 256);
+        measure::shrink(&mut desc, 64, 2048);
         let (mut film, _) = measure::render(&Scene::build(&desc).unwrap(), &desc, NonZeroUsize::MIN);
         let (image, width) = (film.develop(), desc.render.width);
         let index = |x: u32, y: u32| (y * width + x) as usize;
