@@ -103,4 +103,6 @@ pub(crate) struct PrimHit {
     pub(crate) t: f64,
     pub(crate) u: f64,
     pub(crate) v: f64,
+    /// Whether it is off by less than the margins of the tree's boxes.
+    pub(crate) is_sure: bool,
 }

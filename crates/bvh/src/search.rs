@@ -41,19 +41,14 @@ impl Search {
     }
 
     #[inline(always)]
-    pub(crate) fn has_hit(&self) -> bool {
-        self.nearest.prim != Hit::NO_PRIM
-    }
-
-    #[inline(always)]
     pub(crate) fn hit(&self) -> Option<Hit> {
-        self.has_hit().then_some(self.nearest)
+        (self.nearest.prim != Hit::NO_PRIM).then_some(self.nearest)
     }
 
     /// Tests a primitive; of hits at the same distance, that of the lowest index counts.
     ///
     /// A hit outside the primitive's box, as a badly conditioned intersection may claim it, would be found or not found
-    /// depending on the tree. So there is no hit where the ray misses the box, and none before it enters the box.
+    /// depending on the tree. So there is none where the ray misses the box, and none before it enters the box.
     #[inline]
     pub(crate) fn test(&mut self, tree: &Tree, slot: Slot) {
         let (kind, block, lane) = slot.unpack();
@@ -61,11 +56,7 @@ impl Search {
         let Some(hit) = primitive.intersect(&self.ray).filter(|hit| hit.t as f32 <= self.nearest.t) else {
             return;
         };
-        let entry = match kind {
-            // Spheres are never badly conditioned.
-            Kind::Sphere => Some(0.0),
-            Kind::Triangle | Kind::Quad => self.ray.enters(primitive.bounds()),
-        };
+        let entry = if hit.is_sure { Some(0.0) } else { self.ray.enters(primitive.bounds()) };
         let Some(entry) = entry else {
             return;
         };

@@ -7,37 +7,34 @@ use crate::bvh::Bvh;
 use crate::filter::{BoxLanes, RayLanes};
 use crate::ray::{Hit, Ray};
 use crate::search::{Search, Slot};
-use crate::simd::{Isa, LANES, Simd};
+#[cfg(target_arch = "x86_64")]
+use crate::simd::Avx2;
+use crate::simd::{Isa, LANES, Scalar, Simd};
 use crate::wide::{Child, Kind, Node, Target, Tree};
 
-/// The nearest hit, on the best path that the processor has.
+/// The nearest hit, found with the instructions of choice, if the processor has them.
 #[inline]
 pub(crate) fn closest(bvh: &Bvh, ray: &Ray, isa: Isa) -> Option<Hit> {
     match isa {
-        Isa::Scalar => walk::<_, false>(crate::simd::Scalar, bvh, ray),
         #[cfg(target_arch = "x86_64")]
-        // SAFETY: detection has found that the processor has AVX2 and FMA.
-        Isa::Avx2 => match crate::simd::Avx2::detect() {
-            Some(avx2) => unsafe { walk_avx2::<false>(avx2, bvh, ray) },
-            None => walk::<_, false>(crate::simd::Scalar, bvh, ray),
+        Isa::Avx2 => match Avx2::detect() {
+            // SAFETY: `avx2` is the proof that the processor has AVX2 and FMA.
+            Some(avx2) => unsafe { walk_avx2(avx2, bvh, ray) },
+            None => walk(Scalar, bvh, ray),
         },
-        #[cfg(target_arch = "aarch64")]
-        Isa::Neon => match crate::simd::Neon::detect() {
-            Some(neon) => walk::<_, false>(neon, bvh, ray),
-            None => walk::<_, false>(crate::simd::Scalar, bvh, ray),
-        },
+        Isa::Scalar => walk(Scalar, bvh, ray),
     }
 }
 
 #[cfg(target_arch = "x86_64")]
 #[target_feature(enable = "avx2,fma")]
-fn walk_avx2<const ANY: bool>(s: crate::simd::Avx2, bvh: &Bvh, ray: &Ray) -> Option<Hit> {
-    walk::<_, ANY>(s, bvh, ray)
+fn walk_avx2(avx2: Avx2, bvh: &Bvh, ray: &Ray) -> Option<Hit> {
+    walk(avx2, bvh, ray)
 }
 
 /// Visits what the ray may meet, near things first.
 #[inline(always)]
-fn walk<S: Simd, const ANY: bool>(s: S, bvh: &Bvh, ray: &Ray) -> Option<Hit> {
+fn walk<S: Simd>(s: S, bvh: &Bvh, ray: &Ray) -> Option<Hit> {
     let tree = &bvh.tree;
     let (boxes, lanes) = (BoxLanes::new(s, ray, bvh.reach), RayLanes::new(s, ray));
     let mut search = Search::new(ray);
@@ -48,9 +45,6 @@ fn walk<S: Simd, const ANY: bool>(s: S, bvh: &Bvh, ray: &Ray) -> Option<Hit> {
             Target::Node(index) => push_children(s, tree, &tree.nodes[index], &boxes, search.t_max(), &mut stack),
             Target::Leaf(kind, block) => {
                 test_leaf(s, tree, kind, block, &lanes, &mut search);
-                if ANY && search.has_hit() {
-                    return search.hit();
-                }
                 None
             }
             Target::Nothing => None,

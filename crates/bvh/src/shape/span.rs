@@ -11,6 +11,9 @@ use crate::ray::{PrimHit, RayF64};
 /// Bound on the rounding errors of each product below, relative to the largest factors: 42 roundings in a row.
 const ROUNDING: f64 = 32.0 * f64::EPSILON;
 
+/// With errors below this, relative to the edges, the point is off by far less than the margins of the tree's boxes.
+const SURE: f64 = 1e-9;
+
 /// Seen so much edge-on that it is narrower than this many rounding errors, a shape is not hit.
 const EDGE_ON: f64 = 64.0;
 
@@ -34,6 +37,7 @@ pub(crate) fn intersect(
     }
     let (u, v) = (from_corner.dot(p) / det, ray.d.dot(q) / det);
     let t = edges[1].dot(q) / det;
-    let hit = PrimHit { t, u: u.clamp(0.0, 1.0), v: v.clamp(0.0, 1.0) };
-    (inside(u, v, error / det.abs()) && t > 0.0).then_some(hit)
+    let error = error / det.abs();
+    let hit = PrimHit { t, u: u.clamp(0.0, 1.0), v: v.clamp(0.0, 1.0), is_sure: error < SURE };
+    (inside(u, v, error) && t > 0.0).then_some(hit)
 }
