@@ -1,4 +1,5 @@
-//! Leaves: eight primitives of one kind, lane by lane. The lanes in use come first.
+//! Leaves: eight primitives of one kind, lane by lane. The lanes in use come first. Aligning blocks to cache lines would
+//! cost memory and gains nothing.
 
 use glam::Vec3;
 
@@ -7,7 +8,7 @@ use crate::simd::LANES;
 
 /// Triangles as three vertices, or quads as a corner and two edges.
 #[derive(Clone, Debug)]
-#[repr(C, align(64))]
+#[repr(C)]
 pub(crate) struct CornerBlock {
     /// `[corner][axis]`.
     pub(crate) corner: [[[f32; LANES]; 3]; 3],
@@ -44,7 +45,7 @@ impl CornerBlock {
 
 /// Spheres.
 #[derive(Clone, Debug)]
-#[repr(C, align(64))]
+#[repr(C)]
 pub(crate) struct SphereBlock {
     pub(crate) center: [[f32; LANES]; 3],
     pub(crate) radius: [f32; LANES],
