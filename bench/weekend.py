@@ -13,6 +13,7 @@ SIDE = 11  # small spheres stand on a grid from -SIDE to SIDE - 1
 RADIUS = 0.2
 
 HEADER = """\
+#:schema ../docs/formats/scene.schema.json
 # The cover scene of Ray Tracing in One Weekend: three large spheres among small ones of matte, metal and glass.
 # Written by bench/weekend.py; do not edit.
 
