@@ -325,6 +325,7 @@ mod tests {
 
     use super::*;
     use crate::measure;
+    use eyebeam_core::color::luminance;
 
     const SCENE: &str = r#"
         [camera]
@@ -346,10 +347,6 @@ mod tests {
 
     fn scene() -> SceneDesc {
         eyebeam_io::scene::read_str("spheres", SCENE, &[]).unwrap()
-    }
-
-    fn luminance([r, g, b]: [f64; 3]) -> f64 {
-        0.2126 * r + 0.7152 * g + 0.0722 * b
     }
 
     /// Matte, metal and glass through a lens: block by block, both pictures are as far apart as their noise allows.

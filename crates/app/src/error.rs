@@ -14,6 +14,8 @@ pub(crate) enum Error {
     Usage(String),
     #[error("error: the picture would need {}, and {} are allowed\nhint: make it smaller (-r), or allow more (--memory)", bytes(*.needed), bytes(*.allowed))]
     Memory { needed: u64, allowed: u64 },
+    #[error("error: cannot listen to signals: {0}")]
+    Listen(std::io::Error),
     #[error("error: cannot write to standard output: {0}")]
     Stdout(std::io::Error),
     /// Ended by a signal; what there was of the picture is written.
@@ -36,7 +38,7 @@ impl Error {
             Self::Io(eyebeam_io::Error::Scene(_)) | Self::Scene(_) => 3,
             Self::Io(eyebeam_io::Error::Io { .. }) | Self::Stdout(_) => 4,
             Self::Memory { .. } => 5,
-            Self::Io(eyebeam_io::Error::Encode(_)) => INTERNAL,
+            Self::Io(eyebeam_io::Error::Encode(_)) | Self::Listen(_) => INTERNAL,
             Self::Signal(number) => 128 + number,
         }
     }

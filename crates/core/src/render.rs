@@ -82,6 +82,9 @@ impl<'s> Render<'s> {
 
     /// Adds a pass of samples, or what is left of one; ends early when asked to pause, and the next step goes on there.
     pub fn step(&mut self, monitor: &Monitor) {
+        if self.is_done() {
+            return;
+        }
         let tile_count = self.film.tile_count() as u64;
         let pass = self.next_unit / tile_count;
         let first = pass as u32 * Self::SAMPLES_PER_PASS;

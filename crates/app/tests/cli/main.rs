@@ -1,6 +1,7 @@
 //! The command as a user meets it: what it prints, writes and returns.
 
 mod determinism;
+mod examples;
 mod output;
 mod pictures;
 #[cfg(unix)]

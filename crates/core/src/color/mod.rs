@@ -3,5 +3,5 @@
 mod rgb;
 mod spectrum;
 
-pub use rgb::{Rgb, srgb_decode, srgb_encode};
+pub use rgb::{Rgb, luminance, srgb_decode, srgb_encode};
 pub use spectrum::Spectrum;

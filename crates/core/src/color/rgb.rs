@@ -24,7 +24,8 @@ impl Rgb {
     /// Rec. 709 luminance.
     pub fn luminance(self) -> f32 {
         let [r, g, b] = self.0;
-        0.2126 * r + 0.7152 * g + 0.0722 * b
+        let [wr, wg, wb] = LUMINANCE.map(|w| w as f32);
+        wr * r + wg * g + wb * b
     }
 
     fn from_hex(text: &str) -> Option<Self> {
@@ -32,6 +33,14 @@ impl Rgb {
         let value = u32::from_str_radix(hex, 16).ok()?;
         Some(Self([16, 8, 0].map(|shift| srgb_decode((value >> shift & 255) as f32 / 255.0))))
     }
+}
+
+/// Share of each channel in Rec. 709 luminance.
+const LUMINANCE: [f64; 3] = [0.2126, 0.7152, 0.0722];
+
+/// Rec. 709 luminance of a linear colour, in double precision.
+pub fn luminance(rgb: [f64; 3]) -> f64 {
+    rgb.iter().zip(LUMINANCE).map(|(c, weight)| c * weight).sum()
 }
 
 impl From<Rgb> for Spectrum {

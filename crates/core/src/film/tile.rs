@@ -2,7 +2,7 @@
 
 use glam::UVec2;
 
-use crate::color::{Rgb, Spectrum};
+use crate::color::{Rgb, Spectrum, luminance};
 use crate::film::exact::Exact;
 
 /// The samples of one pixel, added up.
@@ -56,8 +56,7 @@ impl PixelSum {
 
     /// The mean luminance.
     pub fn luminance(&self) -> f64 {
-        let [r, g, b] = self.mean_f64();
-        0.2126 * r + 0.7152 * g + 0.0722 * b
+        luminance(self.mean_f64())
     }
 
     /// The standard error of the mean luminance; none below two samples.

@@ -4,6 +4,7 @@
 //! disc below each sphere, and a disc of open ground far from both. The sphere behind the eye and its shadow are seen in
 //! the mirror of the yellow one, which colours them, so they are compared with open ground in that mirror.
 
+use eyebeam_core::color::luminance;
 use eyebeam_core::film::Image;
 use eyebeam_core::render::Settings;
 use glam::{UVec2, Vec3};
@@ -12,7 +13,7 @@ use super::page;
 use super::probe::{Probe, Seen, mean};
 use super::sheet::Sheet;
 use super::table::Table;
-use super::{Study, build, luminance, render, scene};
+use super::{Study, build, render, scene};
 use crate::error::Error;
 
 pub(super) const NAME: &str = "depth";

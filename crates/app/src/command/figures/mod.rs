@@ -96,16 +96,15 @@ fn refused(mut problems: Vec<Problem>) -> Error {
     Error::Scene(problems.remove(0))
 }
 
-/// Renders to the end.
-fn render(scene: &Scene, settings: Settings) -> Image {
+/// Renders to the end, watched by `monitor`.
+fn finished<'s>(scene: &'s Scene, settings: Settings, monitor: &Monitor) -> Render<'s> {
     let mut render = Render::new(scene, settings);
     while !render.is_done() {
-        render.step(&Monitor::default());
+        render.step(monitor);
     }
-    render.film().develop()
+    render
 }
 
-/// Rec. 709 luminance of a mean colour.
-fn luminance([r, g, b]: [f64; 3]) -> f64 {
-    0.2126 * r + 0.7152 * g + 0.0722 * b
+fn render(scene: &Scene, settings: Settings) -> Image {
+    finished(scene, settings, &Monitor::default()).film().develop()
 }

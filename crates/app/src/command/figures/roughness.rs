@@ -4,6 +4,7 @@
 //! luminance changes from that of the ground to that of the sky over some width. Width here is the whole range of the
 //! luminance over its steepest slope, in radii of the sphere.
 
+use eyebeam_core::color::luminance;
 use eyebeam_core::film::Image;
 use eyebeam_core::render::Settings;
 use glam::UVec2;
@@ -12,7 +13,7 @@ use super::page::{self, text, write_below};
 use super::probe::{Probe, mean};
 use super::sheet::draw_image;
 use super::table::Table;
-use super::{Study, build, luminance, render, scene};
+use super::{Study, build, render, scene};
 use crate::error::Error;
 
 pub(super) const NAME: &str = "roughness";

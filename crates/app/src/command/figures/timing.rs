@@ -4,8 +4,10 @@ use std::num::NonZeroUsize;
 use std::sync::atomic::Ordering::Relaxed;
 use std::time::{Duration, Instant};
 
-use eyebeam_core::render::{Monitor, Render, Settings};
+use eyebeam_core::render::{Monitor, Settings};
 use eyebeam_core::scene::Scene;
+
+use super::finished;
 
 /// A render to be timed.
 pub(super) struct Job<'a> {
@@ -56,10 +58,7 @@ impl Job<'_> {
     /// Renders on one thread; returns the number of rays.
     fn render(&self) -> u64 {
         let monitor = Monitor::default();
-        let mut render = Render::new(self.scene, Settings { threads: NonZeroUsize::MIN, ..self.settings.clone() });
-        while !render.is_done() {
-            render.step(&monitor);
-        }
+        finished(self.scene, Settings { threads: NonZeroUsize::MIN, ..self.settings.clone() }, &monitor);
         monitor.rays.load(Relaxed)
     }
 }

@@ -45,7 +45,7 @@ pub(super) fn run(args: &RenderArgs) -> Result<(), Error> {
         say(&format!("{} primitives · {width} x {height} · {spp} spp · {threads} threads", scene.primitive_count()));
     }
 
-    let signals = Signals::listen().map_err(|e| Error::Usage(format!("cannot listen to signals: {e}")))?;
+    let signals = Signals::listen().map_err(Error::Listen)?;
     let mut session =
         Session { render: Render::new(&scene, settings), desc: &desc, args, output: &output, error: None };
     let clock = Instant::now();
