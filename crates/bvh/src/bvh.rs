@@ -1,11 +1,14 @@
 //! The hierarchy.
 
 use crate::aabb::Aabb;
-use crate::build::build;
+use crate::build::{Quality, build};
+use crate::error::BuildError;
+use crate::geometry::Geometry;
 use crate::ray::{Hit, Ray};
 use crate::search::{Search, Slot};
 use crate::shape::Primitive;
 use crate::simd::{Isa, LANES};
+use crate::stats::Stats;
 use crate::traverse::closest;
 use crate::wide::{Child, Kind, Tree};
 
@@ -27,17 +30,20 @@ impl Bvh {
 
     /// Builds the tree, in O(n log n).
     ///
-    /// # Panics
-    /// Above [`MAX_PRIMITIVES`](Self::MAX_PRIMITIVES).
-    pub fn build(primitives: Vec<Primitive>) -> Self {
-        let (tree, bounds) = build(&primitives);
-        let reach = if primitives.is_empty() { 0.0 } else { bounds.lo.abs().max(bounds.hi.abs()).max_element() };
-        Self { tree, bounds, reach, isa: Isa::detect(), is_list: false }
+    /// # Errors
+    /// Numbers that are not finite, and more than [`MAX_PRIMITIVES`](Self::MAX_PRIMITIVES) primitives.
+    pub fn build(geometry: &(impl Geometry + ?Sized), quality: Quality) -> Result<Self, BuildError> {
+        let (tree, bounds) = build(geometry, quality)?;
+        let reach = if geometry.is_empty() { 0.0 } else { bounds.lo.abs().max(bounds.hi.abs()).max_element() };
+        Ok(Self { tree, bounds, reach, isa: Isa::detect(), is_list: false })
     }
 
     /// As [`build`](Self::build), but every ray tests every primitive: the same hits in time O(n), for comparison.
-    pub fn list(primitives: Vec<Primitive>) -> Self {
-        Self { is_list: true, ..Self::build(primitives) }
+    ///
+    /// # Errors
+    /// As for [`build`](Self::build).
+    pub fn list(geometry: &(impl Geometry + ?Sized)) -> Result<Self, BuildError> {
+        Ok(Self { is_list: true, ..Self::build(geometry, Quality::Balanced)? })
     }
 
     /// The same tree, walked with other instructions: the same hits, for comparison. What the processor lacks is not used.
@@ -63,6 +69,47 @@ impl Bvh {
     #[inline]
     pub fn intersect(&self, ray: &Ray) -> Option<Hit> {
         if self.is_list { self.intersect_all(ray) } else { closest(self, ray, self.isa) }
+    }
+
+    /// Whether anything is hit with 0 < t ≤ `t_max`: as [`intersect`](Self::intersect) finds it, in less time.
+    #[inline]
+    pub fn occluded(&self, ray: &Ray) -> bool {
+        self.intersect(ray).is_some()
+    }
+
+    /// As [`intersect`](Self::intersect), for many rays.
+    ///
+    /// # Panics
+    /// If there are fewer `hits` than `rays`.
+    pub fn intersect_batch(&self, rays: &[Ray], hits: &mut [Option<Hit>]) {
+        for (ray, hit) in rays.iter().zip(&mut hits[..rays.len()]) {
+            *hit = self.intersect(ray);
+        }
+    }
+
+    /// As [`occluded`](Self::occluded), for many rays.
+    ///
+    /// # Panics
+    /// If there are fewer `occluded` than `rays`.
+    pub fn occluded_batch(&self, rays: &[Ray], occluded: &mut [bool]) {
+        for (ray, occluded) in rays.iter().zip(&mut occluded[..rays.len()]) {
+            *occluded = self.occluded(ray);
+        }
+    }
+
+    /// What the tree is made of.
+    pub fn stats(&self) -> Stats {
+        let tree = &self.tree;
+        let blocks = tree.triangles.len() + tree.quads.len() + tree.spheres.len();
+        Stats {
+            nodes: tree.nodes.len(),
+            leaves: blocks,
+            bytes: size_of_val(tree.nodes.as_slice())
+                + size_of_val(tree.triangles.as_slice())
+                + size_of_val(tree.quads.as_slice())
+                + size_of_val(tree.spheres.as_slice()),
+            ..Stats::default()
+        }
     }
 
     fn intersect_all(&self, ray: &Ray) -> Option<Hit> {

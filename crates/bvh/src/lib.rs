@@ -5,29 +5,39 @@
 //! not depend on the order of the primitives, on the tree, or on whether there is one ([`Bvh::list`]).
 //!
 //! ```
-//! use eyebeam_bvh::{Bvh, Primitive, Ray, Sphere};
+//! use eyebeam_bvh::{Bvh, Primitive, Quality, Ray, Sphere};
 //! use glam::Vec3;
 //!
+//! # fn main() -> Result<(), eyebeam_bvh::BuildError> {
 //! let ball = Sphere { center: Vec3::ZERO, radius: 1.0 };
-//! let bvh = Bvh::build(vec![Primitive::Sphere(ball)]);
+//! let bvh = Bvh::build(&vec![Primitive::Sphere(ball)], Quality::Balanced)?;
 //! let hit = bvh.intersect(&Ray::new(Vec3::new(0.0, 0.0, 5.0), Vec3::NEG_Z)).unwrap();
 //! assert_eq!((hit.t, hit.prim), (4.0, 0));
+//! # Ok(())
+//! # }
 //! ```
 #![deny(unsafe_op_in_unsafe_fn)]
 
 mod aabb;
 mod build;
 mod bvh;
+mod error;
 mod filter;
+mod geometry;
 mod ray;
 mod search;
 mod shape;
 mod simd;
+mod stats;
 mod traverse;
 mod wide;
 
 pub use aabb::Aabb;
+pub use build::Quality;
 pub use bvh::Bvh;
+pub use error::BuildError;
+pub use geometry::{Geometry, Mesh};
 pub use ray::{Hit, Ray};
 pub use shape::{Primitive, Quad, Sphere, Triangle};
 pub use simd::Isa;
+pub use stats::Stats;

@@ -16,12 +16,14 @@ pub struct Ray {
     pub d: Vec3,
     /// Hits farther than this do not count. Infinite by default.
     pub t_max: f32,
+    /// When it is traced, in the time of the motion keys: 0 at the first, 1 at the last. 0 by default.
+    pub time: f32,
 }
 
 impl Ray {
-    /// A ray of infinite length.
+    /// A ray of infinite length, at time 0.
     pub fn new(o: Vec3, d: Vec3) -> Self {
-        Self { o, d, t_max: f32::INFINITY }
+        Self { o, d, t_max: f32::INFINITY, time: 0.0 }
     }
 }
 

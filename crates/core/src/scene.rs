@@ -4,7 +4,7 @@ use std::collections::BTreeMap;
 
 pub use eyebeam_bvh::{Bvh, Ray};
 
-use eyebeam_bvh::Primitive;
+use eyebeam_bvh::{BuildError, Quality};
 
 use crate::camera::{CameraDesc, ThinLens};
 use crate::desc::SceneDesc;
@@ -13,6 +13,21 @@ use crate::light::EnvironmentDesc;
 use crate::material::MaterialDesc;
 use crate::shape::SurfacePoint;
 use crate::validate::Problem;
+
+/// How rays find what they hit.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Acceleration {
+    /// Through a hierarchy of boxes.
+    Tree(Quality),
+    /// By a test of everything.
+    List,
+}
+
+impl Default for Acceleration {
+    fn default() -> Self {
+        Self::Tree(Quality::default())
+    }
+}
 
 /// A scene that rays can be traced through. After it is built, nothing can fail.
 #[derive(Clone, Debug)]
@@ -31,14 +46,14 @@ impl Scene {
     /// # Errors
     /// All that [`SceneDesc::check`] finds.
     pub fn build(desc: &SceneDesc) -> Result<Self, Vec<Problem>> {
-        Self::build_with(desc, Bvh::build)
+        Self::build_with(desc, Acceleration::default())
     }
 
-    /// As [`build`](Self::build), with the acceleration structure of choice: [`Bvh::build`] or [`Bvh::list`].
+    /// As [`build`](Self::build), with the acceleration structure of choice: the picture is the same, the time is not.
     ///
     /// # Errors
     /// All that [`SceneDesc::check`] finds.
-    pub fn build_with(desc: &SceneDesc, accelerate: fn(Vec<Primitive>) -> Bvh) -> Result<Self, Vec<Problem>> {
+    pub fn build_with(desc: &SceneDesc, acceleration: Acceleration) -> Result<Self, Vec<Problem>> {
         let problems = desc.check();
         if !problems.is_empty() {
             return Err(problems);
@@ -56,8 +71,14 @@ impl Scene {
             let material = index_of.get(shape.material().unwrap_or(SceneDesc::DEFAULT_MATERIAL)).copied().unwrap_or(0);
             material_of.resize(primitives.len(), material);
         }
+        let bvh = match acceleration {
+            Acceleration::Tree(quality) => Bvh::build(&primitives, quality),
+            Acceleration::List => Bvh::list(&primitives),
+        };
+        // The check has found that every number is finite and that the primitives are not too many.
+        let refused = |e: BuildError| vec![Problem { path: vec!["shape".into()], message: e.to_string(), hint: None }];
         Ok(Self {
-            bvh: accelerate(primitives),
+            bvh: bvh.map_err(refused)?,
             material_of,
             materials,
             environment: desc.environment.clone(),

@@ -2,20 +2,28 @@
 
 mod binary;
 mod collapse;
+mod quality;
 mod sah;
 
 use crate::aabb::Aabb;
-use crate::shape::Primitive;
+use crate::error::BuildError;
+use crate::geometry::Geometry;
 use crate::wide::{Child, Tree};
+
+pub use quality::Quality;
 
 /// No path of the binary tree is longer; the stack of a walk is sized by it.
 pub(crate) const MAX_DEPTH: usize = 64;
 
-/// A tree over `primitives`, and the box around them.
-pub(crate) fn build(primitives: &[Primitive]) -> (Tree, Aabb) {
-    assert!(primitives.len() <= Child::MAX_BLOCKS, "a tree holds at most {} primitives", Child::MAX_BLOCKS);
-    let binary = sah::build(primitives);
-    (collapse::collapse(&binary, primitives), binary.bounds())
+/// A tree over the primitives, and the box around them.
+pub(crate) fn build(geometry: &(impl Geometry + ?Sized), _quality: Quality) -> Result<(Tree, Aabb), BuildError> {
+    let (count, most) = (geometry.len(), Child::MAX_BLOCKS);
+    if count > most {
+        return Err(BuildError::TooMany { count, most });
+    }
+    let primitives: Vec<_> = (0..count).map(|i| geometry.primitive(i)).collect();
+    let binary = sah::build(&primitives);
+    Ok((collapse::collapse(&binary, &primitives), binary.bounds()))
 }
 
 #[cfg(test)]
@@ -23,7 +31,7 @@ mod tests {
     use glam::Vec3;
 
     use super::*;
-    use crate::shape::Sphere;
+    use crate::shape::{Primitive, Sphere};
     use crate::simd::LANES;
     use crate::wide::{Kind, Target};
 
@@ -45,7 +53,7 @@ mod tests {
             }
         }
         let prims: Vec<_> = balls.into_iter().map(Primitive::Sphere).collect();
-        let (tree, _) = build(&prims);
+        let (tree, _) = build(&prims, Quality::Balanced).unwrap();
         assert!(depth(&tree, tree.root) <= MAX_DEPTH);
         let lanes = (0..tree.spheres.len()).flat_map(|block| (0..LANES).map(move |lane| (block, lane)));
         let in_use = lanes.filter(|&(block, lane)| tree.spheres[block].used >> lane & 1 == 1);

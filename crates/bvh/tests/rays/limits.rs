@@ -1,6 +1,6 @@
 //! Sets and rays that are made to go wrong: they must end without a panic.
 
-use eyebeam_bvh::{Bvh, Primitive, Quad, Ray, Sphere, Triangle};
+use eyebeam_bvh::{Bvh, Primitive, Quad, Quality, Ray, Sphere, Triangle};
 use glam::Vec3;
 
 use crate::random::Random;
@@ -16,14 +16,14 @@ fn geometric_series() {
         for (axis, dir) in Vec3::AXES.into_iter().enumerate() {
             let position = |k: i32| dir * step.powi(k);
             let shapes: Vec<_> = (0..120).map(|k| ball(position(k), 1e-3 * step.powi(k))).collect();
-            let bvh = Bvh::build(shapes.clone());
+            let bvh = Bvh::build(&shapes, Quality::Balanced).unwrap();
             let side = Vec3::AXES[(axis + 1) % 3];
             for k in 0..120 {
                 let ray = Ray::new(position(k) + side * step.powi(k), -side);
                 assert_eq!(bvh.intersect(&ray).map(|h| h.prim), Some(k as u32), "{step}^{k}");
             }
             let along = Ray::new(Vec3::ZERO, dir);
-            assert_eq!(bvh.intersect(&along), Bvh::build(shapes).intersect(&along));
+            assert_eq!(bvh.intersect(&along), Bvh::build(&shapes, Quality::Balanced).unwrap().intersect(&along));
         }
     }
 }
@@ -38,7 +38,7 @@ fn deep_trees_stay_within_the_stack() {
             shapes.extend((0..20).map(|i| ball(corner * x, x * (1.0 + 0.1 * i as f32))));
         }
     }
-    let (tree, list) = (Bvh::build(shapes.clone()), Bvh::list(shapes));
+    let (tree, list) = (Bvh::build(&shapes, Quality::Balanced).unwrap(), Bvh::list(&shapes).unwrap());
     let mut r = Random::new(20);
     for _ in 0..2000 {
         let ray = Ray::new(r.in_cube() * 2.0, r.direction());
@@ -50,7 +50,7 @@ fn deep_trees_stay_within_the_stack() {
 #[test]
 fn a_hundred_thousand_copies() {
     for shape in [ball(Vec3::ONE, 0.5), ball(Vec3::ZERO, 1e-30)] {
-        let bvh = Bvh::build(vec![shape; 100_000]);
+        let bvh = Bvh::build(&vec![shape; 100_000], Quality::Balanced).unwrap();
         let d = Vec3::new(0.3, -0.2, -1.0);
         let center = bvh.bounds().lo.midpoint(bvh.bounds().hi);
         assert_eq!(bvh.intersect(&Ray::new(center - d, d)).map(|h| h.prim), Some(0));
@@ -76,10 +76,10 @@ fn numbers_that_are_not_finite() {
                 };
             }
         }
-        let bvh = Bvh::build(shapes.clone());
+        let bvh = Bvh::build(&shapes, Quality::Balanced).unwrap();
         for _ in 0..20_000 {
             let o = if r.below(2) == 0 { r.in_cube() } else { any(&mut r) };
-            let hit = bvh.intersect(&Ray { o, d: any(&mut r), t_max: r.pick(&odd) });
+            let hit = bvh.intersect(&Ray { o, d: any(&mut r), t_max: r.pick(&odd), time: 0.0 });
             assert!(hit.is_none_or(|h| h.t.is_finite()));
         }
     }

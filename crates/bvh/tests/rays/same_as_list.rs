@@ -1,13 +1,13 @@
 //! The tree finds what the list finds, bit for bit, with whatever instructions it is walked.
 
-use eyebeam_bvh::{Bvh, Isa, Primitive, Quad, Ray, Sphere, Triangle};
+use eyebeam_bvh::{Bvh, Isa, Primitive, Quad, Quality, Ray, Sphere, Triangle};
 use glam::Vec3;
 
 use crate::random::Random;
 
 /// Asks tree and list the same questions; most must have an answer, unless there is nothing to hit.
 fn compare(name: &str, shapes: Vec<Primitive>, extent: f32, rays: usize, r: &mut Random) {
-    let (tree, list) = (Bvh::build(shapes.clone()), Bvh::list(shapes.clone()));
+    let (tree, list) = (Bvh::build(&shapes, Quality::Balanced).unwrap(), Bvh::list(&shapes).unwrap());
     assert_eq!(tree.bounds(), list.bounds());
     let plain = tree.clone().with_isa(Isa::Scalar);
     let mut hits = 0;
@@ -144,7 +144,7 @@ fn grids_seen_edge_on() {
             }
         };
         let shapes: Vec<_> = (0..n * n).map(shape).collect();
-        let (tree, list) = (Bvh::build(shapes.clone()), Bvh::list(shapes));
+        let (tree, list) = (Bvh::build(&shapes, Quality::Balanced).unwrap(), Bvh::list(&shapes).unwrap());
         for _ in 0..20_000 {
             let height = r.pick(&[0.0, 1e-45, 1e-30, 1e-9]);
             let o = Vec3::new(r.unit() * 3.0 - 1.0, height, r.unit() * 3.0 - 1.0);
@@ -188,7 +188,7 @@ fn fans_seen_edge_on() {
             }
         };
         let shapes: Vec<_> = (0..40).map(blade).collect();
-        let (tree, list) = (Bvh::build(shapes.clone()), Bvh::list(shapes));
+        let (tree, list) = (Bvh::build(&shapes, Quality::Balanced).unwrap(), Bvh::list(&shapes).unwrap());
         for _ in 0..1000 {
             let on_hinge = corner + hinge * r.unit();
             let o = on_hinge - (wing + hinge * (r.unit() - 0.5)) * r.pick(&[1e-6, 1e-3, 1.0]);

@@ -1,13 +1,13 @@
 //! Each shape against the reference, and exact answers at the edge of what is defined.
 
-use eyebeam_bvh::{Bvh, Primitive, Quad, Ray, Sphere, Triangle};
+use eyebeam_bvh::{Bvh, Primitive, Quad, Quality, Ray, Sphere, Triangle};
 use glam::Vec3;
 
 use crate::random::Random;
 use crate::reference::Expected;
 
 fn hit(shape: Primitive, o: [f32; 3], d: [f32; 3]) -> Option<f32> {
-    Bvh::list(vec![shape]).intersect(&Ray::new(o.into(), d.into())).map(|hit| hit.t)
+    Bvh::list(&vec![shape]).unwrap().intersect(&Ray::new(o.into(), d.into())).map(|hit| hit.t)
 }
 
 /// Sizes and distances from far below to far above a metre; rays to corners and edges, along axes, from surfaces.
@@ -23,7 +23,7 @@ fn shapes_agree_with_the_reference() {
         let extent = size * r.pick(&[1.0, 3.0, 1e3, 1e6]);
         let ray = Ray { t_max: f32::INFINITY, ..r.ray(&[shape], extent) };
         let expected = Expected::new(&shape, &ray);
-        let hit = Bvh::list(vec![shape]).intersect(&ray);
+        let hit = Bvh::list(&vec![shape]).unwrap().intersect(&ray);
         assert!(expected.allows(hit), "{shape:?}\n{ray:?}\n{hit:?}\n{expected:?}");
         clear += usize::from(expected.is_clear());
         hits += usize::from(hit.is_some());
@@ -40,7 +40,7 @@ fn large_spheres_are_exact_at_the_ground() {
         let ground = Primitive::Sphere(Sphere { center: Vec3::new(0.0, -radius, 0.0), radius });
         let o = r.in_cube() * Vec3::new(10.0, 0.0, 10.0) + Vec3::Y * r.pick(&[0.0, 1e-6, 1e-3, 1.0]);
         let ray = Ray::new(o, r.in_cube() * Vec3::new(1.0, r.pick(&[1.0, 1e-3, 1e-6]), 1.0));
-        let (expected, hit) = (Expected::new(&ground, &ray), Bvh::list(vec![ground]).intersect(&ray));
+        let (expected, hit) = (Expected::new(&ground, &ray), Bvh::list(&vec![ground]).unwrap().intersect(&ray));
         assert!(expected.allows(hit), "{ground:?}\n{ray:?}\n{hit:?}\n{expected:?}");
     }
 }
@@ -143,11 +143,11 @@ fn triangle_edges_belong_to_it() {
 #[test]
 fn parameters_say_where() {
     let quad = Quad { corner: Vec3::new(1.0, 2.0, 3.0), u: Vec3::new(2.0, 0.0, 0.0), v: Vec3::new(1.0, 4.0, 0.0) };
-    let bvh = Bvh::build(vec![Primitive::Quad(quad)]);
+    let bvh = Bvh::build(&vec![Primitive::Quad(quad)], Quality::Balanced).unwrap();
     let hit = bvh.intersect(&Ray::new(quad.corner + 0.25 * quad.u + 0.5 * quad.v + Vec3::Z, Vec3::NEG_Z)).unwrap();
     assert_eq!((hit.t, hit.u, hit.v), (1.0, 0.25, 0.5));
     let triangle = Triangle { a: quad.corner, b: quad.corner + quad.u, c: quad.corner + quad.v };
-    let bvh = Bvh::build(vec![Primitive::Triangle(triangle)]);
+    let bvh = Bvh::build(&vec![Primitive::Triangle(triangle)], Quality::Balanced).unwrap();
     let hit = bvh.intersect(&Ray::new(quad.corner + 0.25 * quad.u + 0.5 * quad.v + Vec3::Z, Vec3::NEG_Z)).unwrap();
     assert_eq!((hit.t, hit.u, hit.v), (1.0, 0.25, 0.5));
 }

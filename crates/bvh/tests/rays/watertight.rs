@@ -1,6 +1,6 @@
 //! From inside a closed surface no ray gets out, least of all where its parts meet.
 
-use eyebeam_bvh::{Bvh, Primitive, Quad, Ray, Triangle};
+use eyebeam_bvh::{Bvh, Primitive, Quad, Quality, Ray, Triangle};
 use glam::Vec3;
 
 use crate::random::Random;
@@ -44,7 +44,7 @@ fn icosphere(levels: u32, stretch: Vec3) -> Vec<[Vec3; 3]> {
 
 /// Rays from `inside` to the corners, the middle of the edges and anywhere on the edges of each triangle.
 fn assert_closed(name: &str, shapes: Vec<Primitive>, outline: &[[Vec3; 3]], inside: &[Vec3], r: &mut Random) {
-    let bvh = Bvh::build(shapes);
+    let bvh = Bvh::build(&shapes, Quality::Balanced).unwrap();
     for &o in inside {
         for [a, b, c] in outline {
             for (from, to) in [(a, b), (b, c), (c, a)] {

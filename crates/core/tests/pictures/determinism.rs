@@ -4,14 +4,13 @@ use std::num::NonZeroUsize;
 use std::sync::atomic::Ordering::Relaxed;
 use std::thread;
 
-use eyebeam_bvh::Bvh;
 use eyebeam_core::color::Rgb;
 use eyebeam_core::desc::SceneDesc;
 use eyebeam_core::film::Image;
 use eyebeam_core::light::EnvironmentDesc;
 use eyebeam_core::material::{Dielectric, MaterialDesc, Metal};
 use eyebeam_core::render::{Monitor, Render, Settings};
-use eyebeam_core::scene::Scene;
+use eyebeam_core::scene::{Acceleration, Scene};
 
 use crate::setup::*;
 
@@ -52,7 +51,7 @@ fn threads_and_repetition_change_nothing() {
 
 #[test]
 fn the_tree_changes_nothing() {
-    let [tree, list] = [Bvh::build, Bvh::list].map(|a| Scene::build_with(&medley(), a).unwrap());
+    let [tree, list] = [Acceleration::default(), Acceleration::List].map(|a| Scene::build_with(&medley(), a).unwrap());
     assert!(picture(&tree, settings_of(2, 20)) == picture(&list, settings_of(2, 20)));
 }
 
