@@ -1,16 +1,20 @@
 //! The hierarchy.
 
+use glam::{DAffine3, DVec3};
+
 use crate::aabb::Aabb;
 use crate::build::{Quality, build};
 use crate::error::BuildError;
+use crate::filter::FilterRay;
 use crate::geometry::Geometry;
+use crate::instance::Instance;
 use crate::ray::{Hit, Ray};
-use crate::search::{Search, Slot};
-use crate::shape::Primitive;
-use crate::simd::{Isa, LANES};
+use crate::search::{Accept, Everything, Search, Where};
+use crate::shape::Surface;
+use crate::simd::{Isa, Processor};
 use crate::stats::Stats;
-use crate::traverse::closest;
-use crate::wide::{Child, Kind, Tree};
+use crate::traverse;
+use crate::wide::{Child, Tree};
 
 /// Primitives sorted for rays.
 #[derive(Clone, Debug)]
@@ -19,9 +23,9 @@ pub struct Bvh {
     bounds: Aabb,
     /// The largest coordinate of `bounds`, by size.
     pub(crate) reach: f32,
-    isa: Isa,
+    pub(crate) cpu: Processor,
     /// Whether rays test everything instead of walking the tree.
-    is_list: bool,
+    pub(crate) is_list: bool,
 }
 
 impl Bvh {
@@ -34,8 +38,8 @@ impl Bvh {
     /// Numbers that are not finite, and more than [`MAX_PRIMITIVES`](Self::MAX_PRIMITIVES) primitives.
     pub fn build(geometry: &(impl Geometry + ?Sized), quality: Quality) -> Result<Self, BuildError> {
         let (tree, bounds) = build(geometry, quality)?;
-        let reach = if geometry.is_empty() { 0.0 } else { bounds.lo.abs().max(bounds.hi.abs()).max_element() };
-        Ok(Self { tree, bounds, reach, isa: Isa::detect(), is_list: false })
+        let reach = if bounds.lo.x > bounds.hi.x { 0.0 } else { bounds.lo.abs().max(bounds.hi.abs()).max_element() };
+        Ok(Self { tree, bounds, reach, cpu: Isa::detect().processor(), is_list: false })
     }
 
     /// As [`build`](Self::build), but every ray tests every primitive: the same hits in time O(n), for comparison.
@@ -48,7 +52,7 @@ impl Bvh {
 
     /// The same tree, walked with other instructions: the same hits, for comparison. What the processor lacks is not used.
     pub fn with_isa(self, isa: Isa) -> Self {
-        Self { isa, ..self }
+        Self { cpu: isa.processor(), ..self }
     }
 
     /// The box around everything; empty if there is nothing.
@@ -56,11 +60,33 @@ impl Bvh {
         self.bounds
     }
 
-    /// The primitive that was hit.
+    /// What was hit, in the space of the innermost object, at the time of the ray.
+    ///
+    /// # Panics
+    /// If the hit is one of another tree.
     #[inline]
-    pub fn primitive(&self, hit: &Hit) -> Primitive {
+    pub fn surface(&self, hit: &Hit, time: f32) -> Surface {
         let (kind, block, lane) = hit.slot.unpack();
-        self.tree.primitive(kind, block, lane)
+        let innermost = self.instances(hit).last().map_or(self, |(_, object)| object);
+        // A hit is never of an instance itself.
+        let surface = innermost.tree.primitive(kind, block, lane).surface(time);
+        surface.unwrap_or(Surface::Flat { corner: DVec3::ZERO, edges: [DVec3::ZERO; 2] })
+    }
+
+    /// From the space of the primitive that was hit to that of the ray, at its time: the identity outside instances.
+    pub fn to_world(&self, hit: &Hit, time: f32) -> DAffine3 {
+        let transforms = self.instances(hit).map(|(instance, _)| instance.to_world(time).unwrap_or(DAffine3::IDENTITY));
+        transforms.fold(DAffine3::IDENTITY, |outer, inner| outer * inner)
+    }
+
+    /// The instances through which a hit was found, with what they show, the outermost first.
+    fn instances(&self, hit: &Hit) -> impl Iterator<Item = (Instance, &Self)> {
+        let indices = hit.instances.into_iter().take_while(|&index| index != Hit::NO_INSTANCE);
+        indices.scan(self, |outer, index| {
+            let instance = outer.tree.instance(outer.tree.block_of_instance(index)?);
+            *outer = outer.tree.objects.get(instance.object as usize)?;
+            Some((instance, *outer))
+        })
     }
 
     /// The nearest hit with 0 < t ≤ `t_max`; of several at the same distance, the one of lowest index.
@@ -68,13 +94,37 @@ impl Bvh {
     /// A ray whose numbers are not finite hits nothing or something, but ends.
     #[inline]
     pub fn intersect(&self, ray: &Ray) -> Option<Hit> {
-        if self.is_list { self.intersect_all(ray) } else { closest(self, ray, self.isa) }
+        let mut search = Search::new(ray);
+        self.search::<false>(ray, &mut search, &Everything);
+        search.hit()
+    }
+
+    /// As [`intersect`](Self::intersect), but only those hits count that `accept` returns true for: alpha-tested leaves, say.
+    ///
+    /// It is asked at least once for the hit that is returned, and otherwise for some hits that lie in front of something or
+    /// behind; its answers must depend on the hit alone.
+    #[inline]
+    pub fn intersect_where(&self, ray: &Ray, accept: impl Fn(&Hit) -> bool) -> Option<Hit> {
+        let mut search = Search::new(ray);
+        self.search::<false>(ray, &mut search, &Where(accept));
+        search.hit()
     }
 
     /// Whether anything is hit with 0 < t ≤ `t_max`: as [`intersect`](Self::intersect) finds it, in less time.
     #[inline]
     pub fn occluded(&self, ray: &Ray) -> bool {
-        self.intersect(ray).is_some()
+        self.search::<true>(ray, &mut Search::new(ray), &Everything)
+    }
+
+    /// As [`occluded`](Self::occluded), but only those hits count that `accept` returns true for.
+    #[inline]
+    pub fn occluded_where(&self, ray: &Ray, accept: impl Fn(&Hit) -> bool) -> bool {
+        self.search::<true>(ray, &mut Search::new(ray), &Where(accept))
+    }
+
+    #[inline(always)]
+    fn search<const ANY: bool>(&self, ray: &Ray, search: &mut Search, accept: &impl Accept) -> bool {
+        traverse::search::<ANY>(self, &FilterRay::new(ray), search, accept)
     }
 
     /// As [`intersect`](Self::intersect), for many rays.
@@ -100,33 +150,6 @@ impl Bvh {
     /// What the tree is made of.
     pub fn stats(&self) -> Stats {
         let tree = &self.tree;
-        let blocks = tree.triangles.len() + tree.quads.len() + tree.spheres.len();
-        Stats {
-            nodes: tree.nodes.len(),
-            leaves: blocks,
-            bytes: size_of_val(tree.nodes.as_slice())
-                + size_of_val(tree.triangles.as_slice())
-                + size_of_val(tree.quads.as_slice())
-                + size_of_val(tree.spheres.as_slice()),
-            ..Stats::default()
-        }
-    }
-
-    fn intersect_all(&self, ray: &Ray) -> Option<Hit> {
-        let mut search = Search::new(ray);
-        let tree = &self.tree;
-        let counts = [
-            (Kind::Triangle, tree.triangles.len()),
-            (Kind::Quad, tree.quads.len()),
-            (Kind::Sphere, tree.spheres.len()),
-        ];
-        for (kind, count) in counts {
-            for (block, lane) in (0..count).flat_map(|block| (0..LANES).map(move |lane| (block, lane))) {
-                if tree.id(kind, block, lane) != Hit::NO_PRIM {
-                    search.test(tree, Slot::new(kind, block, lane));
-                }
-            }
-        }
-        search.hit()
+        Stats { nodes: tree.nodes.len(), bytes: tree.bytes(), ..Stats::default() }
     }
 }

@@ -32,23 +32,48 @@ impl Ray {
 pub struct Hit {
     /// Distance along the ray, in multiples of its direction.
     pub t: f32,
-    /// The primitive's index in the list that the tree was built from.
+    /// The primitive's index in the list that the tree was built from; if it was met through instances, in that of the
+    /// innermost object.
     pub prim: u32,
     /// First parameter of the point on the primitive: along `u` of a quad, weight of vertex `b` of a triangle, 0 on a sphere.
     pub u: f32,
     /// Second parameter: along `v` of a quad, weight of vertex `c` of a triangle, 0 on a sphere.
     pub v: f32,
-    /// Where the tree keeps the primitive; for [`Bvh::primitive`](crate::Bvh::primitive).
+    /// Indices of the instances through which it was met, each in the list of the tree that holds it, the outermost first;
+    /// [`NO_INSTANCE`](Self::NO_INSTANCE) from where there are no more.
+    pub instances: [u32; Hit::MAX_NESTING],
+    /// Where the innermost tree keeps the primitive.
     pub(crate) slot: Slot,
 }
 
 impl Hit {
+    /// The most instances within each other.
+    pub const MAX_NESTING: usize = 3;
+
+    /// The index of no instance.
+    pub const NO_INSTANCE: u32 = u32::MAX;
+
     /// The index of no primitive.
     pub(crate) const NO_PRIM: u32 = u32::MAX;
 
     /// Where a search up to `t_max` begins; loses against every hit at a finite distance.
+    #[inline(always)]
     pub(crate) fn none(t_max: f32) -> Self {
-        Self { t: t_max.min(f32::MAX), prim: Self::NO_PRIM, u: 0.0, v: 0.0, slot: Slot::NONE }
+        let instances = [Self::NO_INSTANCE; Self::MAX_NESTING];
+        Self { t: t_max.min(f32::MAX), prim: Self::NO_PRIM, u: 0.0, v: 0.0, instances, slot: Slot::NONE }
+    }
+
+    /// Of two hits at the same distance the one that comes first counts: by the index in the outermost list, then by that in the
+    /// object, and so on.
+    pub(crate) fn precedes(&self, other: &Self) -> bool {
+        let order = |hit: &Self| {
+            let mut order = [hit.prim; Self::MAX_NESTING + 1];
+            for (to, &index) in order.iter_mut().zip(hit.instances.iter().take_while(|&&i| i != Self::NO_INSTANCE)) {
+                *to = index;
+            }
+            order
+        };
+        order(self) < order(other)
     }
 }
 
@@ -62,9 +87,15 @@ pub(crate) struct RayF64 {
     pub(crate) d: DVec3,
     /// The largest component of `d` by size.
     pub(crate) d_max: f64,
+    pub(crate) time: f32,
 }
 
 impl RayF64 {
+    #[inline(always)]
+    pub(crate) fn new(o: DVec3, d: DVec3, time: f32) -> Self {
+        Self { o, d, d_max: d.abs().max_element(), time }
+    }
+
     /// The distance at which the ray enters a box, if it meets it.
     ///
     /// Boxes in the tree are tested in single precision, wider by more than that loses, so a box that is met here is met
@@ -93,9 +124,9 @@ impl RayF64 {
 }
 
 impl From<&Ray> for RayF64 {
+    #[inline(always)]
     fn from(ray: &Ray) -> Self {
-        let d = ray.d.as_dvec3();
-        Self { o: ray.o.as_dvec3(), d, d_max: d.abs().max_element() }
+        Self::new(ray.o.as_dvec3(), ray.d.as_dvec3(), ray.time)
     }
 }
 
@@ -105,6 +136,4 @@ pub(crate) struct PrimHit {
     pub(crate) t: f64,
     pub(crate) u: f64,
     pub(crate) v: f64,
-    /// Whether it is off by less than the margins of the tree's boxes.
-    pub(crate) is_sure: bool,
 }

@@ -1,4 +1,7 @@
-//! The search for the nearest hit: exact tests, one primitive at a time.
+//! The search for the nearest hit: exact tests, one primitive at a time, put off as long as they can be.
+//!
+//! A hit that is certain need not be known exactly until it is compared with another at about the same distance. Most are
+//! never: so most rays make one exact test.
 
 use crate::ray::{Hit, Ray, RayF64};
 use crate::wide::{Kind, Tree};
@@ -11,60 +14,166 @@ impl Slot {
     /// Nowhere.
     pub(crate) const NONE: Self = Self(u32::MAX);
 
+    const KIND_SHIFT: u32 = 29;
+    const LANE_BITS: u32 = 3;
+
     #[inline(always)]
     pub(crate) fn new(kind: Kind, block: usize, lane: usize) -> Self {
-        Self((kind as u32) << 30 | (block as u32) << 3 | lane as u32)
+        Self((kind as u32) << Self::KIND_SHIFT | (block as u32) << Self::LANE_BITS | lane as u32)
     }
 
     #[inline(always)]
     pub(crate) fn unpack(self) -> (Kind, usize, usize) {
-        (Kind::from_bits(self.0 >> 30), (self.0 << 2 >> 5) as usize, self.0 as usize & 7)
+        let block = self.0 & ((1 << Self::KIND_SHIFT) - 1);
+        (Kind::from_bits(self.0 >> Self::KIND_SHIFT), (block >> Self::LANE_BITS) as usize, self.0 as usize & 7)
+    }
+}
+
+/// Whether a hit counts, by what the caller knows of the surface.
+pub(crate) trait Accept {
+    /// Every hit counts; nobody is asked.
+    const EVERYTHING: bool;
+
+    fn accepts(&self, hit: &Hit) -> bool;
+}
+
+/// Every hit counts.
+pub(crate) struct Everything;
+
+impl Accept for Everything {
+    const EVERYTHING: bool = true;
+
+    #[inline(always)]
+    fn accepts(&self, _: &Hit) -> bool {
+        true
+    }
+}
+
+/// Those hits count that a function accepts.
+pub(crate) struct Where<F>(pub(crate) F);
+
+impl<F: Fn(&Hit) -> bool> Accept for Where<F> {
+    const EVERYTHING: bool = false;
+
+    #[inline(always)]
+    fn accepts(&self, hit: &Hit) -> bool {
+        self.0(hit)
     }
 }
 
 /// A ray and the nearest hit so far.
+#[derive(Clone)]
 pub(crate) struct Search {
-    ray: RayF64,
+    pub(crate) ray: RayF64,
     nearest: Hit,
+    /// A hit that is certain, and the distances between which it lies; `nearest` is farther.
+    pending: Slot,
+    pending_near: f32,
+    pending_far: f32,
+    /// No hit is nearer: where the ray enters the innermost instance.
+    floor: f32,
+    instances: [u32; Hit::MAX_NESTING],
 }
 
 impl Search {
     #[inline(always)]
     pub(crate) fn new(ray: &Ray) -> Self {
-        Self { ray: RayF64::from(ray), nearest: Hit::none(ray.t_max) }
+        let nearest = Hit::none(ray.t_max);
+        Self {
+            ray: RayF64::from(ray),
+            nearest,
+            pending: Slot::NONE,
+            pending_near: 0.0,
+            pending_far: nearest.t,
+            floor: 0.0,
+            instances: nearest.instances,
+        }
     }
 
     /// Hits farther than this do not count any more.
     #[inline(always)]
     pub(crate) fn t_max(&self) -> f32 {
-        self.nearest.t
+        self.pending_far
+    }
+
+    /// Hits nearer than this are not certain.
+    #[inline(always)]
+    pub(crate) fn t_min(&self) -> f32 {
+        /// Distances below this may be rounded to 0, where there is no hit.
+        const LEAST: f32 = 1e-30;
+        self.floor.max(LEAST)
     }
 
     #[inline(always)]
-    pub(crate) fn hit(&self) -> Option<Hit> {
-        (self.nearest.prim != Hit::NO_PRIM).then_some(self.nearest)
+    pub(crate) fn found(&self) -> bool {
+        self.nearest.prim != Hit::NO_PRIM
     }
 
-    /// Tests a primitive; of hits at the same distance, that of the lowest index counts.
-    ///
-    /// A hit outside the primitive's box, as a badly conditioned intersection may claim it, would be found or not found
-    /// depending on the tree. So there is none where the ray misses the box, and none before it enters the box.
-    #[inline]
-    pub(crate) fn test(&mut self, tree: &Tree, slot: Slot) {
-        let (kind, block, lane) = slot.unpack();
-        let primitive = tree.primitive(kind, block, lane);
-        let Some(hit) = primitive.intersect(&self.ray).filter(|hit| hit.t as f32 <= self.nearest.t) else {
-            return;
-        };
-        let entry = if hit.is_sure { Some(0.0) } else { self.ray.enters(primitive.bounds()) };
-        let Some(entry) = entry else {
-            return;
-        };
-        let (t, prim) = (hit.t.max(entry) as f32, tree.id(kind, block, lane));
-        let nearest = &self.nearest;
-        // A distance may have been rounded to 0.
-        if t > 0.0 && (t < nearest.t || (t == nearest.t && prim < nearest.prim)) {
-            self.nearest = Hit { t, prim, u: hit.u as f32, v: hit.v as f32, slot };
+    /// The nearest hit, if nothing is pending.
+    #[inline(always)]
+    pub(crate) fn hit(&self) -> Option<Hit> {
+        self.found().then_some(self.nearest)
+    }
+
+    /// Notes a hit that is certain, whose distance lies between two others, before [`t_max`](Self::t_max).
+    #[inline(always)]
+    pub(crate) fn certain(&mut self, tree: &Tree, slot: Slot, near: f32, far: f32, accept: &impl Accept) {
+        if self.pending == Slot::NONE || far < self.pending_near {
+            self.pending = slot;
+            self.pending_near = near;
+            self.pending_far = far;
+        } else {
+            self.test(tree, slot, accept);
         }
+    }
+
+    /// Tests what is pending.
+    #[inline(always)]
+    pub(crate) fn settle(&mut self, tree: &Tree, accept: &impl Accept) {
+        let slot = std::mem::replace(&mut self.pending, Slot::NONE);
+        if slot != Slot::NONE {
+            self.test_now(tree, slot, accept);
+        }
+    }
+
+    /// Tests a primitive, after what is pending.
+    #[inline(never)]
+    pub(crate) fn test(&mut self, tree: &Tree, slot: Slot, accept: &impl Accept) {
+        self.settle(tree, accept);
+        self.test_now(tree, slot, accept);
+    }
+
+    /// Of hits at the same distance, that of the lowest index counts.
+    #[inline(never)]
+    fn test_now(&mut self, tree: &Tree, slot: Slot, accept: &impl Accept) {
+        let (kind, block, lane) = slot.unpack();
+        let hit = tree.intersect(kind, block, lane, &self.ray);
+        let Some(hit) = hit.filter(|hit| hit.t as f32 <= self.nearest.t) else {
+            return;
+        };
+        let t = (hit.t as f32).max(self.floor);
+        let instances = self.instances;
+        let hit = Hit { t, prim: tree.id(kind, block, lane), u: hit.u as f32, v: hit.v as f32, instances, slot };
+        let nearest = &self.nearest;
+        let counts = t > 0.0 && (t < nearest.t || (t == nearest.t && hit.precedes(nearest)));
+        if counts && accept.accepts(&hit) {
+            self.nearest = hit;
+            self.pending_far = t;
+        }
+    }
+
+    /// The search within an instance, by the ray in its object's space, from where the ray enters its box; none if the
+    /// instances are too deep within each other. Nothing must be pending.
+    pub(crate) fn enter(&self, ray: RayF64, instance: u32, entry: f32) -> Option<Self> {
+        let depth = self.instances.iter().position(|&i| i == Hit::NO_INSTANCE)?;
+        let mut inner = Self { ray, floor: self.floor.max(entry), ..self.clone() };
+        inner.instances[depth] = instance;
+        Some(inner)
+    }
+
+    /// Takes over what a search within an instance found.
+    pub(crate) fn leave(&mut self, inner: &Self) {
+        self.nearest = inner.nearest;
+        self.pending_far = inner.nearest.t;
     }
 }

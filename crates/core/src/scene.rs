@@ -90,7 +90,7 @@ impl Scene {
     #[inline]
     pub fn intersect(&self, ray: &Ray) -> Option<SurfaceInteraction<'_>> {
         let hit = self.bvh.intersect(ray)?;
-        let point = SurfacePoint::new(&self.bvh.primitive(&hit), ray, &hit);
+        let point = SurfacePoint::new(&self.bvh.surface(&hit, ray.time), ray, &hit);
         let material = &self.materials[self.material_of[hit.prim as usize] as usize];
         Some(SurfaceInteraction::new(point, ray.d, material))
     }

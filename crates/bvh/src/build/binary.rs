@@ -1,8 +1,11 @@
 //! The binary tree that builders make.
 
+use std::sync::Arc;
+
 use glam::Vec3A;
 
 use crate::aabb::Aabb;
+use crate::bvh::Bvh;
 use crate::shape::Primitive;
 
 /// A box in the form that builders compute with.
@@ -74,8 +77,8 @@ pub(super) struct Binary {
 
 impl Binary {
     /// One item for each primitive, and room for the nodes.
-    pub(super) fn new(primitives: &[Primitive]) -> Self {
-        let item = |(i, p): (usize, &Primitive)| Item { bounds: p.bounds().into(), prim: i as u32 };
+    pub(super) fn new(primitives: &[Primitive], objects: &[Arc<Bvh>]) -> Self {
+        let item = |(i, p): (usize, &Primitive)| Item { bounds: p.bounds(objects).into(), prim: i as u32 };
         let items: Vec<_> = primitives.iter().enumerate().map(item).collect();
         let empty = Node { bounds: Bounds::EMPTY, count: 0, left: 0 };
         Self { nodes: vec![empty; (2 * items.len()).saturating_sub(1)], items }

@@ -8,7 +8,7 @@ use crate::shape::Primitive;
 use crate::simd::LANES;
 use crate::wide::{Child, Kind, Node, Tree};
 
-/// Cost of testing the boxes of a node, and the primitives of a leaf.
+/// Cost of testing the boxes of a node, and the primitives of a leaf of up to eight or four.
 const NODE_COST: f32 = 1.0;
 const LEAF_COST: f32 = 1.0;
 
@@ -37,7 +37,7 @@ struct Plan {
 }
 
 pub(super) fn collapse(binary: &Binary, primitives: &[Primitive]) -> Tree {
-    let mut wide = Collapse { binary, primitives, plans: plan(binary, primitives), tree: Tree::empty() };
+    let mut wide = Collapse { binary, primitives, plans: plan(binary, primitives), tree: Tree::default() };
     if !binary.nodes.is_empty() {
         wide.tree.root = wide.emit(0, 0);
     }
@@ -73,7 +73,7 @@ fn plan_inner(left: &Plan, right: &Plan, area: f32, count: u32) -> Plan {
     let (below, left_of_node) = share(LANES);
     let node = below + area * NODE_COST;
     let leaf = area * LEAF_COST;
-    let may_be_leaf = kind.is_some() && count as usize <= LANES;
+    let may_be_leaf = kind.is_some_and(|kind| count as usize <= kind.lanes());
     let mut plan = Plan { cost: [0.0; LANES], choice: [Choice::Fewer; LANES], left_of_node, kind };
     (plan.cost[0], plan.choice[0]) =
         if may_be_leaf && leaf <= node { (leaf, Choice::Leaf) } else { (node, Choice::Node) };
@@ -116,10 +116,10 @@ impl Collapse<'_> {
 
     fn emit_leaf(&mut self, index: usize, item: usize) -> Child {
         let items = &self.binary.items[item..item + self.binary.nodes[index].count as usize];
-        let bounds =
-            items.iter().fold(Bounds::EMPTY, |b, item| b.union(self.primitives[item.prim as usize].bounds().into()));
+        let bounds = items.iter().fold(Bounds::EMPTY, |b, item| b.union(item.bounds));
         let primitives = items.iter().map(|item| (item.prim, self.primitives[item.prim as usize]));
-        self.tree.push_leaf(primitives, bounds.longest_side())
+        let kind = Kind::of(&self.primitives[items[0].prim as usize]).for_leaf(items.len());
+        self.tree.push_leaf(kind, primitives, bounds.longest_side())
     }
 
     /// The binary nodes, with their first items, that show a subtree in at most so many places.

@@ -22,8 +22,11 @@ pub(crate) fn build(geometry: &(impl Geometry + ?Sized), _quality: Quality) -> R
         return Err(BuildError::TooMany { count, most });
     }
     let primitives: Vec<_> = (0..count).map(|i| geometry.primitive(i)).collect();
-    let binary = sah::build(&primitives);
-    Ok((collapse::collapse(&binary, &primitives), binary.bounds()))
+    let objects = geometry.objects();
+    let binary = sah::build(&primitives, objects);
+    let mut tree = collapse::collapse(&binary, &primitives);
+    tree.set_objects(objects);
+    Ok((tree, binary.bounds()))
 }
 
 #[cfg(test)]
@@ -38,7 +41,7 @@ mod tests {
     fn depth(tree: &Tree, child: Child) -> usize {
         match child.target() {
             Target::Node(index) => 1 + tree.nodes[index].child.iter().map(|&c| depth(tree, c)).max().unwrap_or(0),
-            Target::Leaf(..) | Target::Nothing => 0,
+            Target::Leaf(..) => 0,
         }
     }
 
@@ -57,7 +60,7 @@ mod tests {
         assert!(depth(&tree, tree.root) <= MAX_DEPTH);
         let lanes = (0..tree.spheres.len()).flat_map(|block| (0..LANES).map(move |lane| (block, lane)));
         let in_use = lanes.filter(|&(block, lane)| tree.spheres[block].used >> lane & 1 == 1);
-        let mut ids: Vec<_> = in_use.map(|(block, lane)| tree.id(Kind::Sphere, block, lane)).collect();
+        let mut ids: Vec<_> = in_use.map(|(block, lane)| tree.id(Kind::Spheres, block, lane)).collect();
         ids.sort_unstable();
         assert!(ids.into_iter().eq(0..prims.len() as u32), "each is in one leaf");
     }

@@ -4,16 +4,19 @@
 //! each axis (Wald 2007, doi:10.1109/RT.2007.4342588). Subtrees are built in parallel; where each one's nodes go is known
 //! beforehand, so the tree is the same for any number of threads.
 
+use std::sync::Arc;
+
 use crate::build::MAX_DEPTH;
 use crate::build::binary::{Binary, Bounds, Item, Node};
+use crate::bvh::Bvh;
 use crate::shape::Primitive;
 
 const BINS: usize = 32;
 /// Subtrees with fewer items are not worth a thread.
 const PARALLEL: usize = 4096;
 
-pub(super) fn build(primitives: &[Primitive]) -> Binary {
-    let mut binary = Binary::new(primitives);
+pub(super) fn build(primitives: &[Primitive], objects: &[Arc<Bvh>]) -> Binary {
+    let mut binary = Binary::new(primitives, objects);
     if !binary.items.is_empty() {
         split(&mut binary.nodes, &mut binary.items, 0);
     }

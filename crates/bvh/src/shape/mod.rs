@@ -1,45 +1,84 @@
 //! The closed set of shapes that rays are intersected with.
 
+mod flat;
+mod moving;
 mod quad;
-mod span;
 mod sphere;
 mod triangle;
 
-use crate::aabb::Aabb;
-use crate::ray::{PrimHit, RayF64};
+use std::sync::Arc;
 
+use glam::DVec3;
+
+use crate::aabb::Aabb;
+use crate::bvh::Bvh;
+use crate::instance::Instance;
+
+pub use moving::MovingTriangle;
 pub use quad::Quad;
 pub use sphere::Sphere;
 pub use triangle::Triangle;
 
-/// A shape that a ray can hit.
+/// Something that a ray can hit.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Primitive {
-    /// A sphere.
-    Sphere(Sphere),
-    /// A parallelogram.
-    Quad(Quad),
     /// A triangle.
     Triangle(Triangle),
+    /// A parallelogram.
+    Quad(Quad),
+    /// A sphere.
+    Sphere(Sphere),
+    /// A triangle that moves.
+    MovingTriangle(MovingTriangle),
+    /// An object shown again, elsewhere.
+    Instance(Instance),
+}
+
+/// What was hit, as its points are computed: in double precision, at the time of the ray.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Surface {
+    /// A triangle or a quad: the points `corner + u edges[0] + v edges[1]`; the normal is edges[0] × edges[1].
+    Flat {
+        /// The first vertex.
+        corner: DVec3,
+        /// From there to the next two.
+        edges: [DVec3; 2],
+    },
+    /// A sphere.
+    Sphere(Sphere),
 }
 
 impl Primitive {
-    /// The box around the shape, wider by a few roundings.
+    /// The surface at a time; none for an instance, whose object has one.
     #[inline]
-    pub fn bounds(&self) -> Aabb {
+    pub(crate) fn surface(&self, time: f32) -> Option<Surface> {
+        let flat = |[a, b, c]: [DVec3; 3]| Some(Surface::Flat { corner: a, edges: [b - a, c - a] });
         match self {
-            Self::Sphere(s) => s.bounds(),
-            Self::Quad(q) => q.bounds(),
-            Self::Triangle(t) => t.bounds(),
+            Self::Triangle(t) => flat(t.vertices()),
+            Self::MovingTriangle(t) => flat(t.vertices(time)),
+            Self::Quad(q) => Some(Surface::Flat { corner: q.corner.as_dvec3(), edges: q.edges() }),
+            Self::Sphere(s) => Some(Surface::Sphere(*s)),
+            Self::Instance(_) => None,
         }
     }
 
+    /// The box around the shape at all times, wider by a few roundings; `None` for an instance, which needs its object.
     #[inline]
-    pub(crate) fn intersect(&self, ray: &RayF64) -> Option<PrimHit> {
+    pub(crate) fn shape_bounds(&self) -> Option<Aabb> {
         match self {
-            Self::Sphere(s) => s.intersect(ray),
-            Self::Quad(q) => q.intersect(ray),
-            Self::Triangle(t) => t.intersect(ray),
+            Self::Triangle(t) => Some(t.bounds()),
+            Self::Quad(q) => Some(q.bounds()),
+            Self::Sphere(s) => Some(s.bounds()),
+            Self::MovingTriangle(t) => Some(t.bounds()),
+            Self::Instance(_) => None,
+        }
+    }
+
+    /// The box around it at all times, wider by a few roundings.
+    pub(crate) fn bounds(&self, objects: &[Arc<Bvh>]) -> Aabb {
+        match self {
+            Self::Instance(i) => objects.get(i.object as usize).map_or(Aabb::EMPTY, |object| i.bounds(object)),
+            _ => self.shape_bounds().unwrap_or(Aabb::EMPTY),
         }
     }
 }

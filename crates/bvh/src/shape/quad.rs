@@ -1,10 +1,10 @@
 //! The quad: a parallelogram, so also every rectangle.
 
-use glam::Vec3;
+use glam::{DVec3, Vec3};
 
 use crate::aabb::Aabb;
 use crate::ray::{PrimHit, RayF64};
-use crate::shape::span;
+use crate::shape::flat;
 
 /// The parallelogram of all `corner + a u + b v` with a and b in 0..1; its normal is u × v.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -24,8 +24,12 @@ impl Quad {
     }
 
     #[inline]
+    pub(crate) fn edges(&self) -> [DVec3; 2] {
+        [self.u.as_dvec3(), self.v.as_dvec3()]
+    }
+
+    #[inline]
     pub(crate) fn intersect(&self, ray: &RayF64) -> Option<PrimHit> {
-        let edges = [self.u.as_dvec3(), self.v.as_dvec3()];
-        span::intersect(self.corner.as_dvec3(), edges, ray, |u, v, error| u.min(v) >= -error && u.max(v) <= 1.0 + error)
+        flat::intersect_quad(self.corner.as_dvec3(), self.edges(), ray)
     }
 }

@@ -43,6 +43,6 @@ impl Sphere {
         let t1 = (oc.dot(oc) - r * r) / (a * t0);
         let (near, far) = if t0 < t1 { (t0, t1) } else { (t1, t0) };
         let t = if near > 0.0 { near } else { far };
-        (t > 0.0).then_some(PrimHit { t, u: 0.0, v: 0.0, is_sure: true })
+        (t > 0.0).then_some(PrimHit { t, u: 0.0, v: 0.0 })
     }
 }

@@ -1,10 +1,10 @@
 //! The triangle.
 
-use glam::Vec3;
+use glam::{DVec3, Vec3};
 
 use crate::aabb::Aabb;
 use crate::ray::{PrimHit, RayF64};
-use crate::shape::span;
+use crate::shape::flat;
 
 /// A triangle; its normal is (b − a) × (c − a).
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -18,14 +18,17 @@ pub struct Triangle {
 }
 
 impl Triangle {
+    #[inline]
+    pub(crate) fn vertices(&self) -> [DVec3; 3] {
+        [self.a.as_dvec3(), self.b.as_dvec3(), self.c.as_dvec3()]
+    }
+
     pub(crate) fn bounds(&self) -> Aabb {
-        Aabb::around([self.a.as_dvec3(), self.b.as_dvec3(), self.c.as_dvec3()])
+        Aabb::around(self.vertices())
     }
 
     #[inline]
     pub(crate) fn intersect(&self, ray: &RayF64) -> Option<PrimHit> {
-        let a = self.a.as_dvec3();
-        let edges = [self.b.as_dvec3() - a, self.c.as_dvec3() - a];
-        span::intersect(a, edges, ray, |u, v, error| u.min(v) >= -error && u + v <= 1.0 + error)
+        flat::intersect_triangle(self.vertices(), ray)
     }
 }

@@ -1,8 +1,8 @@
-//! Eight numbers side by side, on whatever the processor has for it.
+//! Four or eight numbers side by side, on whatever the processor has for it.
 //!
-//! What is computed here only *rules out*: boxes and primitives that a ray cannot meet. The bounds are conservative, so
-//! paths may round differently (with or without fused operations) and yet every hit is the same bits: hits are computed
-//! elsewhere, one at a time, in double precision.
+//! What is computed here only *sorts out*: boxes and primitives that a ray cannot meet, and those that it meets for certain.
+//! The bounds are conservative on both sides, so paths may round differently (with or without fused operations) and yet every
+//! hit is the same bits: hits are computed elsewhere, one at a time, in double precision.
 
 #[cfg(target_arch = "x86_64")]
 mod avx2;
@@ -12,20 +12,24 @@ mod scalar;
 pub(crate) use avx2::Avx2;
 pub(crate) use scalar::Scalar;
 
-/// The lanes of a vector.
+/// The children of a node, and the most primitives in a leaf.
 pub(crate) const LANES: usize = 8;
 
-/// A processor's way to compute with eight numbers. A value of the type is the proof that the processor has it.
-pub(crate) trait Simd: Copy {
-    /// Eight numbers.
+/// A processor's way to compute with `N` numbers. A value of the type is the proof that the processor has it.
+pub(crate) trait Simd<const N: usize>: Copy {
+    /// The numbers.
     type F32: Copy;
+    /// A truth value for each.
+    type Mask: Copy;
 
-    fn load(self, values: &[f32; LANES]) -> Self::F32;
-    fn store(self, a: Self::F32) -> [f32; LANES];
+    fn load(self, values: &[f32; N]) -> Self::F32;
+    fn store(self, a: Self::F32) -> [f32; N];
     fn splat(self, value: f32) -> Self::F32;
     fn add(self, a: Self::F32, b: Self::F32) -> Self::F32;
     fn sub(self, a: Self::F32, b: Self::F32) -> Self::F32;
     fn mul(self, a: Self::F32, b: Self::F32) -> Self::F32;
+    fn div(self, a: Self::F32, b: Self::F32) -> Self::F32;
+    fn sqrt(self, a: Self::F32) -> Self::F32;
     /// a b + c, fused or not.
     fn mul_add(self, a: Self::F32, b: Self::F32, c: Self::F32) -> Self::F32;
     /// a b − c, fused or not.
@@ -37,8 +41,17 @@ pub(crate) trait Simd: Copy {
     fn abs(self, a: Self::F32) -> Self::F32;
     /// `a`, negated where `sign` is negative.
     fn flip(self, a: Self::F32, sign: Self::F32) -> Self::F32;
-    /// Bit i: not a > b in lane i, so set for NaN: what cannot be compared is not ruled out.
-    fn not_gt(self, a: Self::F32, b: Self::F32) -> u32;
+    /// Not a > b, so true for NaN: what cannot be compared is not ruled out.
+    fn not_gt(self, a: Self::F32, b: Self::F32) -> Self::Mask;
+    /// a > b, so false for NaN: what cannot be compared is not certain.
+    fn gt(self, a: Self::F32, b: Self::F32) -> Self::Mask;
+    fn and(self, a: Self::Mask, b: Self::Mask) -> Self::Mask;
+    /// Bit i: lane i is true.
+    fn bits(self, mask: Self::Mask) -> u32;
+}
+
+/// A processor's way to compute with four and with eight numbers.
+pub(crate) trait Cpu: Simd<4> + Simd<LANES> {
     /// Says that an element of a list will be read soon.
     fn prefetch<T>(self, list: &[T], index: usize);
 }
@@ -62,4 +75,23 @@ impl Isa {
         }
         Self::Scalar
     }
+
+    /// What a walk computes with, if the processor has it.
+    pub(crate) fn processor(self) -> Processor {
+        #[cfg(target_arch = "x86_64")]
+        if self == Self::Avx2
+            && let Some(avx2) = Avx2::detect()
+        {
+            return Processor::Avx2(avx2);
+        }
+        Processor::Scalar(Scalar)
+    }
+}
+
+/// An [`Isa`] that this processor has.
+#[derive(Clone, Copy, Debug)]
+pub(crate) enum Processor {
+    Scalar(Scalar),
+    #[cfg(target_arch = "x86_64")]
+    Avx2(Avx2),
 }

@@ -1,73 +1,90 @@
 //! Plain loops over arrays: the reference, and the path of processors without anything better.
 
-use crate::simd::{LANES, Simd};
+use crate::simd::{Cpu, Simd};
 
 /// Every processor has this.
-#[derive(Clone, Copy)]
+#[derive(Clone, Copy, Debug)]
 pub(crate) struct Scalar;
 
-type F32 = [f32; LANES];
-
-#[inline(always)]
-fn each(f: impl Fn(usize) -> f32) -> F32 {
-    std::array::from_fn(f)
-}
-
-impl Simd for Scalar {
-    type F32 = F32;
+impl<const N: usize> Simd<N> for Scalar {
+    type F32 = [f32; N];
+    type Mask = u32;
 
     #[inline(always)]
-    fn load(self, values: &F32) -> F32 {
+    fn load(self, values: &[f32; N]) -> [f32; N] {
         *values
     }
     #[inline(always)]
-    fn store(self, a: F32) -> F32 {
+    fn store(self, a: [f32; N]) -> [f32; N] {
         a
     }
     #[inline(always)]
-    fn splat(self, value: f32) -> F32 {
-        [value; LANES]
+    fn splat(self, value: f32) -> [f32; N] {
+        [value; N]
     }
     #[inline(always)]
-    fn add(self, a: F32, b: F32) -> F32 {
-        each(|i| a[i] + b[i])
+    fn add(self, a: [f32; N], b: [f32; N]) -> [f32; N] {
+        std::array::from_fn(|i| a[i] + b[i])
     }
     #[inline(always)]
-    fn sub(self, a: F32, b: F32) -> F32 {
-        each(|i| a[i] - b[i])
+    fn sub(self, a: [f32; N], b: [f32; N]) -> [f32; N] {
+        std::array::from_fn(|i| a[i] - b[i])
     }
     #[inline(always)]
-    fn mul(self, a: F32, b: F32) -> F32 {
-        each(|i| a[i] * b[i])
+    fn mul(self, a: [f32; N], b: [f32; N]) -> [f32; N] {
+        std::array::from_fn(|i| a[i] * b[i])
     }
     #[inline(always)]
-    fn mul_add(self, a: F32, b: F32, c: F32) -> F32 {
-        each(|i| a[i] * b[i] + c[i])
+    fn div(self, a: [f32; N], b: [f32; N]) -> [f32; N] {
+        std::array::from_fn(|i| a[i] / b[i])
     }
     #[inline(always)]
-    fn mul_sub(self, a: F32, b: F32, c: F32) -> F32 {
-        each(|i| a[i] * b[i] - c[i])
+    fn sqrt(self, a: [f32; N]) -> [f32; N] {
+        a.map(f32::sqrt)
     }
     #[inline(always)]
-    fn min(self, a: F32, b: F32) -> F32 {
-        each(|i| if a[i] < b[i] { a[i] } else { b[i] })
+    fn mul_add(self, a: [f32; N], b: [f32; N], c: [f32; N]) -> [f32; N] {
+        std::array::from_fn(|i| a[i] * b[i] + c[i])
     }
     #[inline(always)]
-    fn max(self, a: F32, b: F32) -> F32 {
-        each(|i| if a[i] > b[i] { a[i] } else { b[i] })
+    fn mul_sub(self, a: [f32; N], b: [f32; N], c: [f32; N]) -> [f32; N] {
+        std::array::from_fn(|i| a[i] * b[i] - c[i])
     }
     #[inline(always)]
-    fn abs(self, a: F32) -> F32 {
-        each(|i| a[i].abs())
+    fn min(self, a: [f32; N], b: [f32; N]) -> [f32; N] {
+        std::array::from_fn(|i| if a[i] < b[i] { a[i] } else { b[i] })
     }
     #[inline(always)]
-    fn flip(self, a: F32, sign: F32) -> F32 {
-        each(|i| f32::from_bits(a[i].to_bits() ^ (sign[i].to_bits() & 0x8000_0000)))
+    fn max(self, a: [f32; N], b: [f32; N]) -> [f32; N] {
+        std::array::from_fn(|i| if a[i] > b[i] { a[i] } else { b[i] })
     }
     #[inline(always)]
-    fn not_gt(self, a: F32, b: F32) -> u32 {
-        (0..LANES).map(|i| (u32::from(a[i] > b[i]) ^ 1) << i).sum()
+    fn abs(self, a: [f32; N]) -> [f32; N] {
+        a.map(f32::abs)
     }
+    #[inline(always)]
+    fn flip(self, a: [f32; N], sign: [f32; N]) -> [f32; N] {
+        std::array::from_fn(|i| f32::from_bits(a[i].to_bits() ^ (sign[i].to_bits() & 0x8000_0000)))
+    }
+    #[inline(always)]
+    fn not_gt(self, a: [f32; N], b: [f32; N]) -> u32 {
+        (0..N).map(|i| (u32::from(a[i] > b[i]) ^ 1) << i).sum()
+    }
+    #[inline(always)]
+    fn gt(self, a: [f32; N], b: [f32; N]) -> u32 {
+        (0..N).map(|i| u32::from(a[i] > b[i]) << i).sum()
+    }
+    #[inline(always)]
+    fn and(self, a: u32, b: u32) -> u32 {
+        a & b
+    }
+    #[inline(always)]
+    fn bits(self, mask: u32) -> u32 {
+        mask
+    }
+}
+
+impl Cpu for Scalar {
     #[inline(always)]
     fn prefetch<T>(self, _: &[T], _: usize) {}
 }

@@ -1,46 +1,74 @@
-//! Leaves: eight primitives of one kind, lane by lane. The lanes in use come first. Aligning blocks to cache lines would
+//! Leaves: primitives of one kind, lane by lane. The lanes in use come first. Aligning blocks to cache lines would
 //! cost memory and gains nothing.
 
 use glam::Vec3;
 
-use crate::shape::{Primitive, Sphere};
-use crate::simd::LANES;
+use crate::filter::each;
+use crate::instance::Affine;
+use crate::shape::{MovingTriangle, Primitive, Quad, Sphere, Triangle};
+use crate::simd::{LANES, Simd};
+
+/// Lanes of the blocks that are shorter than a node.
+pub(crate) const FEW: usize = 4;
+
+/// For each of three points, for each axis, the coordinate in each lane.
+type Points<const N: usize> = [[[f32; N]; 3]; 3];
 
 /// Triangles as three vertices, or quads as a corner and two edges.
 #[derive(Clone, Debug)]
 #[repr(C)]
-pub(crate) struct CornerBlock {
-    /// `[corner][axis]`.
-    pub(crate) corner: [[[f32; LANES]; 3]; 3],
-    pub(crate) id: [u32; LANES],
+pub(crate) struct CornerBlock<const N: usize> {
+    points: Points<N>,
+    pub(crate) id: [u32; N],
     /// The longest side of the box around all of them.
     pub(crate) size: f32,
     /// Bit i: lane i is in use.
     pub(crate) used: u32,
 }
 
-impl CornerBlock {
+impl<const N: usize> CornerBlock<N> {
     pub(super) fn new(primitives: impl Iterator<Item = (u32, Primitive)>, size: f32) -> Self {
-        let mut block = Self { corner: [[[0.0; LANES]; 3]; 3], id: [u32::MAX; LANES], size, used: 0 };
-        for (lane, (id, primitive)) in primitives.take(LANES).enumerate() {
-            let corners = match primitive {
+        let mut block = Self { points: [[[0.0; N]; 3]; 3], id: [u32::MAX; N], size, used: 0 };
+        for (lane, (id, primitive)) in primitives.take(N).enumerate() {
+            let points = match primitive {
                 Primitive::Triangle(t) => [t.a, t.b, t.c],
                 Primitive::Quad(q) => [q.corner, q.u, q.v],
-                Primitive::Sphere(_) => continue,
+                _ => continue,
             };
             block.id[lane] = id;
             block.used |= 1 << lane;
-            for (corner, value) in block.corner.iter_mut().zip(corners) {
-                (0..3).for_each(|axis| corner[axis][lane] = value[axis]);
-            }
+            set_points(&mut block.points, lane, points);
         }
         block
     }
 
-    #[inline]
-    pub(crate) fn corners(&self, lane: usize) -> [Vec3; 3] {
-        self.corner.each_ref().map(|c| Vec3::new(c[0][lane], c[1][lane], c[2][lane]))
+    #[inline(always)]
+    pub(crate) fn load<S: Simd<N>>(&self, s: S) -> [[S::F32; 3]; 3] {
+        each(|point| each(|axis| s.load(&self.points[point][axis])))
     }
+
+    #[inline]
+    pub(crate) fn triangle(&self, lane: usize) -> Triangle {
+        let [a, b, c] = points_of(&self.points, lane);
+        Triangle { a, b, c }
+    }
+
+    #[inline]
+    pub(crate) fn quad(&self, lane: usize) -> Quad {
+        let [corner, u, v] = points_of(&self.points, lane);
+        Quad { corner, u, v }
+    }
+}
+
+fn set_points<const N: usize>(to: &mut Points<N>, lane: usize, points: [Vec3; 3]) {
+    for (to, point) in to.iter_mut().zip(points) {
+        (0..3).for_each(|axis| to[axis][lane] = point[axis]);
+    }
+}
+
+#[inline(always)]
+fn points_of<const N: usize>(points: &Points<N>, lane: usize) -> [Vec3; 3] {
+    points.each_ref().map(|p| Vec3::new(p[0][lane], p[1][lane], p[2][lane]))
 }
 
 /// Spheres.
@@ -72,5 +100,89 @@ impl SphereBlock {
     pub(crate) fn sphere(&self, lane: usize) -> Sphere {
         let center = Vec3::new(self.center[0][lane], self.center[1][lane], self.center[2][lane]);
         Sphere { center, radius: self.radius[lane] }
+    }
+}
+
+/// Triangles that move.
+#[derive(Clone, Debug)]
+#[repr(C)]
+pub(crate) struct MovingBlock {
+    /// At the beginning and at the end of each one's time.
+    points: [Points<FEW>; 2],
+    time: [[f32; 2]; FEW],
+    pub(crate) id: [u32; FEW],
+    /// The longest side of the box around all of them at all times.
+    pub(crate) size: f32,
+    /// The largest coordinate, by size.
+    pub(crate) reach: f32,
+    used: u32,
+}
+
+impl MovingBlock {
+    pub(super) fn new(primitives: impl Iterator<Item = (u32, Primitive)>, size: f32) -> Self {
+        let points = [[[[0.0; FEW]; 3]; 3]; 2];
+        let mut block = Self { points, time: [[0.0; 2]; FEW], id: [u32::MAX; FEW], size, reach: 0.0, used: 0 };
+        for (lane, (id, primitive)) in primitives.take(FEW).enumerate() {
+            if let Primitive::MovingTriangle(MovingTriangle { at, time }) = primitive {
+                block.id[lane] = id;
+                block.used |= 1 << lane;
+                block.time[lane] = time;
+                for (to, t) in block.points.iter_mut().zip(at) {
+                    set_points(to, lane, [t.a, t.b, t.c]);
+                    block.reach =
+                        [t.a, t.b, t.c].map(|p| p.abs().max_element()).into_iter().fold(block.reach, f32::max);
+                }
+            }
+        }
+        block
+    }
+
+    /// Bit i: lane i exists at this time.
+    #[inline]
+    pub(crate) fn used(&self, time: f32) -> u32 {
+        (0..FEW).map(|i| u32::from(self.time[i][0] <= time && time <= self.time[i][1]) << i).sum::<u32>() & self.used
+    }
+
+    /// The vertices at this time, each off by roundings of [`reach`](Self::reach).
+    #[inline]
+    pub(crate) fn load<S: Simd<FEW>>(&self, s: S, time: f32) -> [[S::F32; 3]; 3] {
+        let share: [f32; FEW] = self.time.map(|[start, end]| MovingTriangle::share(start, end, time) as f32);
+        each(|point| {
+            each(|axis| {
+                let (start, end) = (s.load(&self.points[0][point][axis]), s.load(&self.points[1][point][axis]));
+                s.mul_add(s.load(&share), s.sub(end, start), start)
+            })
+        })
+    }
+
+    #[inline]
+    pub(crate) fn triangle(&self, lane: usize) -> MovingTriangle {
+        let at = self.points.each_ref().map(|points| {
+            let [a, b, c] = points_of(points, lane);
+            Triangle { a, b, c }
+        });
+        MovingTriangle { at, time: self.time[lane] }
+    }
+}
+
+/// An instance: a leaf of its own.
+#[derive(Clone, Debug)]
+pub(crate) struct InstanceLeaf {
+    pub(crate) id: u32,
+    /// The index of what it shows.
+    pub(crate) object: u32,
+    /// The index of its first transform.
+    pub(crate) transform: u32,
+    /// Whether a second transform follows, that of the end of its time.
+    pub(crate) moves: bool,
+    pub(crate) time: [f32; 2],
+}
+
+impl InstanceLeaf {
+    /// The transforms at the beginning and at the end.
+    #[inline]
+    pub(crate) fn keys(&self, transforms: &[Affine]) -> [Affine; 2] {
+        let first = self.transform as usize;
+        [transforms[first], transforms[first + usize::from(self.moves)]]
     }
 }

@@ -3,31 +3,61 @@
 use crate::aabb::Aabb;
 use crate::shape::Primitive;
 use crate::simd::LANES;
+use crate::wide::block::FEW;
 
 /// What a leaf holds.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum Kind {
-    Triangle,
-    Quad,
-    Sphere,
+    /// Up to eight.
+    Triangles,
+    /// Up to four: half the memory, and on many processors half the time.
+    FewTriangles,
+    Quads,
+    Spheres,
+    Moving,
+    Instance,
+    /// No primitive at all.
+    Nothing,
 }
 
 impl Kind {
-    /// From its two bits.
+    /// From its three bits.
     #[inline(always)]
     pub(crate) fn from_bits(bits: u32) -> Self {
-        match bits & 3 {
-            0 => Self::Triangle,
-            1 => Self::Quad,
-            _ => Self::Sphere,
+        match bits & 7 {
+            0 => Self::Triangles,
+            1 => Self::FewTriangles,
+            2 => Self::Quads,
+            3 => Self::Spheres,
+            4 => Self::Moving,
+            5 => Self::Instance,
+            _ => Self::Nothing,
         }
     }
 
+    /// What leaves of such primitives hold, if they are many.
     pub(crate) fn of(primitive: &Primitive) -> Self {
         match primitive {
-            Primitive::Triangle(_) => Self::Triangle,
-            Primitive::Quad(_) => Self::Quad,
-            Primitive::Sphere(_) => Self::Sphere,
+            Primitive::Triangle(_) => Self::Triangles,
+            Primitive::Quad(_) => Self::Quads,
+            Primitive::Sphere(_) => Self::Spheres,
+            Primitive::MovingTriangle(_) => Self::Moving,
+            Primitive::Instance(_) => Self::Instance,
+        }
+    }
+
+    /// What a leaf of so many of these primitives holds.
+    pub(crate) fn for_leaf(self, count: usize) -> Self {
+        if self == Self::Triangles && count <= FEW { Self::FewTriangles } else { self }
+    }
+
+    /// The most primitives in a leaf.
+    pub(crate) fn lanes(self) -> usize {
+        match self {
+            Self::Triangles | Self::Quads | Self::Spheres => LANES,
+            Self::FewTriangles | Self::Moving => FEW,
+            Self::Instance => 1,
+            Self::Nothing => 0,
         }
     }
 }
@@ -36,21 +66,26 @@ impl Kind {
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) struct Child(u32);
 
+impl Default for Child {
+    fn default() -> Self {
+        Self::NONE
+    }
+}
+
 /// What a [`Child`] refers to.
 pub(crate) enum Target {
     Node(usize),
     Leaf(Kind, usize),
-    Nothing,
 }
 
 impl Child {
     /// Blocks of a kind; a hit's slot has three bits more, for the lane.
-    pub(crate) const MAX_BLOCKS: usize = 1 << 27;
+    pub(crate) const MAX_BLOCKS: usize = 1 << 26;
     /// Nothing.
     pub(crate) const NONE: Self = Self(u32::MAX);
 
     const LEAF: u32 = 1 << 31;
-    const KIND_SHIFT: u32 = 29;
+    const KIND_SHIFT: u32 = 28;
     const INDEX: u32 = (1 << Self::KIND_SHIFT) - 1;
 
     pub(crate) fn node(index: usize) -> Self {
@@ -73,8 +108,6 @@ impl Child {
     pub(crate) fn target(self) -> Target {
         if self.0 & Self::LEAF == 0 {
             Target::Node(self.0 as usize)
-        } else if self == Self::NONE {
-            Target::Nothing
         } else {
             Target::Leaf(Kind::from_bits(self.0 >> Self::KIND_SHIFT), (self.0 & Self::INDEX) as usize)
         }

@@ -68,6 +68,7 @@ impl Random {
             Primitive::Sphere(s) => s.center + s.radius * self.in_cube().normalize_or(Vec3::Y),
             Primitive::Quad(q) => q.corner + q.u * x + q.v * y,
             Primitive::Triangle(t) => t.a.lerp(t.b, x).lerp(t.c, y),
+            _ => self.in_cube(),
         }
     }
 

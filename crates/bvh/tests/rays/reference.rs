@@ -35,6 +35,7 @@ impl Expected {
             Primitive::Sphere(s) => sphere(s, ray),
             Primitive::Quad(q) => quad(q, ray),
             Primitive::Triangle(t) => triangle(t, ray),
+            _ => panic!("no reference for {shape:?}"),
         }
     }
 
@@ -116,7 +117,8 @@ fn plane(corner: Double3, edges: [Double3; 2], ray: &Ray) -> Option<PlaneHit> {
     let n_sq = n.dot(n);
     let uv = [in_plane.cross(edges[1]), edges[0].cross(in_plane)].map(|area| (area.dot(n) / n_sq).to_f64());
     // The ray passes an edge at a distance that is off by `error`; seen along the other edge, on the slant, that is more.
-    let reach = to_corner.length() + lengths[0] + lengths[1];
+    // The other vertices of a quad are the corner and the edges, added up in double precision.
+    let reach = to_corner.length() + lengths[0] + lengths[1] + corner.length();
     let error = EPSILON * reach * d.length() / cos.to_f64().abs();
     let t_error = error * lengths[0] * lengths[1] / d.length();
     Some(PlaneHit { t: t.to_f64(), t_error, uv, uv_error: [error * lengths[1], error * lengths[0]] })

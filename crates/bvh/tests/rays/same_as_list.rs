@@ -1,6 +1,6 @@
 //! The tree finds what the list finds, bit for bit, with whatever instructions it is walked.
 
-use eyebeam_bvh::{Bvh, Isa, Primitive, Quad, Quality, Ray, Sphere, Triangle};
+use eyebeam_bvh::{Bvh, Isa, Primitive, Quad, Quality, Ray, Sphere, Surface, Triangle};
 use glam::Vec3;
 
 use crate::random::Random;
@@ -18,7 +18,7 @@ fn compare(name: &str, shapes: Vec<Primitive>, extent: f32, rays: usize, r: &mut
             let bits = hit.map(|h| (h.t.to_bits(), h.prim, h.u.to_bits(), h.v.to_bits()));
             if let Some(h) = hit {
                 assert!(h.t <= ray.t_max && h.t > 0.0, "{name}: {ray:?} {h:?}");
-                assert_eq!(bvh.primitive(&h), shapes[h.prim as usize]);
+                assert_eq!(bvh.surface(&h, 0.0), surface(&shapes[h.prim as usize]));
             }
             bits
         });
@@ -27,6 +27,19 @@ fn compare(name: &str, shapes: Vec<Primitive>, extent: f32, rays: usize, r: &mut
         hits += usize::from(a.is_some());
     }
     assert!(shapes.is_empty() || hits > rays / 20, "{name}: only {hits} of {rays} rays hit");
+}
+
+/// A shape as a hit shows it.
+fn surface(shape: &Primitive) -> Surface {
+    match *shape {
+        Primitive::Triangle(t) => {
+            let [a, b, c] = [t.a, t.b, t.c].map(|p| p.as_dvec3());
+            Surface::Flat { corner: a, edges: [b - a, c - a] }
+        }
+        Primitive::Quad(q) => Surface::Flat { corner: q.corner.as_dvec3(), edges: [q.u.as_dvec3(), q.v.as_dvec3()] },
+        Primitive::Sphere(s) => Surface::Sphere(s),
+        _ => panic!("{shape:?} has no surface of its own"),
+    }
 }
 
 #[test]

@@ -7,13 +7,13 @@
 //! material = "paper"
 //! ```
 
-use eyebeam_bvh::{Hit, Primitive, Triangle};
+use eyebeam_bvh::{Primitive, Triangle};
 use glam::Vec3;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 use crate::array::arrays;
-use crate::shape::{ShapeDesc, SurfacePoint};
+use crate::shape::ShapeDesc;
 use crate::validate::Checker;
 
 /// Triangles that share vertices. The normal of triangle a, b, c is (b − a) × (c − a).
@@ -65,10 +65,4 @@ impl ShapeDesc for MeshDesc {
     fn material(&self) -> Option<&str> {
         self.material.as_deref()
     }
-}
-
-#[inline]
-pub(super) fn point(triangle: &Triangle, hit: &Hit) -> SurfacePoint {
-    let (a, b, c) = (triangle.a.as_dvec3(), triangle.b.as_dvec3(), triangle.c.as_dvec3());
-    SurfacePoint::on_plane(a, [b - a, c - a], hit)
 }

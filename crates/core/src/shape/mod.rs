@@ -6,7 +6,7 @@ mod mesh;
 mod quad;
 mod sphere;
 
-use eyebeam_bvh::{Bvh, Hit, Primitive, Ray};
+use eyebeam_bvh::{Bvh, Hit, Primitive, Ray, Surface};
 use glam::{DVec3, Vec3};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
@@ -74,13 +74,12 @@ pub struct SurfacePoint {
 }
 
 impl SurfacePoint {
-    /// Where `ray` hit `primitive`.
+    /// Where `ray` hit `surface`.
     #[inline]
-    pub fn new(primitive: &Primitive, ray: &Ray, hit: &Hit) -> Self {
-        match primitive {
-            Primitive::Sphere(s) => sphere::point(s, ray, hit),
-            Primitive::Quad(q) => quad::point(q, hit),
-            Primitive::Triangle(t) => mesh::point(t, hit),
+    pub fn new(surface: &Surface, ray: &Ray, hit: &Hit) -> Self {
+        match surface {
+            Surface::Flat { corner, edges } => Self::on_plane(*corner, *edges, hit),
+            Surface::Sphere(s) => sphere::point(s, ray, hit),
         }
     }
 

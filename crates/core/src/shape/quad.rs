@@ -8,13 +8,13 @@
 //! material = "floor"
 //! ```
 
-use eyebeam_bvh::{Hit, Primitive, Quad};
+use eyebeam_bvh::{Primitive, Quad};
 use glam::Vec3;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 use crate::array::array;
-use crate::shape::{ShapeDesc, SurfacePoint};
+use crate::shape::ShapeDesc;
 use crate::validate::Checker;
 
 /// A parallelogram: a corner and two edges. Its normal is u × v.
@@ -54,9 +54,4 @@ impl ShapeDesc for QuadDesc {
     fn material(&self) -> Option<&str> {
         self.material.as_deref()
     }
-}
-
-#[inline]
-pub(super) fn point(quad: &Quad, hit: &Hit) -> SurfacePoint {
-    SurfacePoint::on_plane(quad.corner.as_dvec3(), [quad.u.as_dvec3(), quad.v.as_dvec3()], hit)
 }

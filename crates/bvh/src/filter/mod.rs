@@ -1,0 +1,86 @@
+//! Many boxes or primitives at once: which of them can a ray meet at all, and which does it meet for certain?
+//!
+//! The tests are those of the exact ones, in single precision, with a bound on what single precision can lose. What can be met
+//! is tested again, exactly; what cannot is missed for certain. Most hits are far from every edge: they are certain, and so is
+//! that their distance lies between two bounds.
+
+mod boxes;
+mod corners;
+mod spheres;
+
+pub(crate) use boxes::BoxLanes;
+pub(crate) use corners::Corners;
+pub(crate) use spheres::meets_spheres;
+
+use crate::ray::{Ray, RayF64};
+use crate::simd::Simd;
+
+/// Rounding errors of the sums of products in these tests, relative to their largest factors: about 20 roundings each, and
+/// fourfold safety.
+const ROUNDING: f32 = 40.0 * f32::EPSILON;
+
+/// More than products lose that are too small for single precision, for factors up to 1e14.
+const UNDERFLOW: f32 = 1e-30;
+
+/// A ray as the tests take it.
+#[derive(Clone, Copy)]
+pub(crate) struct FilterRay {
+    o: [f32; 3],
+    d: [f32; 3],
+    /// Largest component of the direction, by size.
+    d_max: f32,
+    /// The origin is off by at most a rounding of this: 0 if it is exact.
+    o_error: f32,
+}
+
+impl FilterRay {
+    #[inline(always)]
+    pub(crate) fn new(ray: &Ray) -> Self {
+        Self { o: ray.o.to_array(), d: ray.d.to_array(), d_max: ray.d.abs().max_element(), o_error: 0.0 }
+    }
+
+    /// From double precision, rounded.
+    pub(crate) fn rounded(ray: &RayF64) -> Self {
+        let (o, d) = (ray.o.as_vec3(), ray.d.as_vec3());
+        Self { o: o.to_array(), d: d.to_array(), d_max: d.abs().max_element(), o_error: o.abs().max_element() }
+    }
+
+    #[inline(always)]
+    fn o<const N: usize, S: Simd<N>>(&self, s: S) -> [S::F32; 3] {
+        each(|axis| s.splat(self.o[axis]))
+    }
+
+    #[inline(always)]
+    fn d<const N: usize, S: Simd<N>>(&self, s: S) -> [S::F32; 3] {
+        each(|axis| s.splat(self.d[axis]))
+    }
+}
+
+/// One value for each axis. The standard library's `map` is not always inlined, and then nothing below it can be: instructions
+/// beyond the target's own are inlined only where they are enabled.
+#[inline(always)]
+pub(crate) fn each<T>(f: impl Fn(usize) -> T) -> [T; 3] {
+    [f(0), f(1), f(2)]
+}
+
+#[inline(always)]
+fn sub3<const N: usize, S: Simd<N>>(s: S, a: [S::F32; 3], b: [S::F32; 3]) -> [S::F32; 3] {
+    each(|axis| s.sub(a[axis], b[axis]))
+}
+
+#[inline(always)]
+fn dot<const N: usize, S: Simd<N>>(s: S, a: [S::F32; 3], b: [S::F32; 3]) -> S::F32 {
+    s.mul_add(a[0], b[0], s.mul_add(a[1], b[1], s.mul(a[2], b[2])))
+}
+
+#[inline(always)]
+fn cross<const N: usize, S: Simd<N>>(s: S, a: [S::F32; 3], b: [S::F32; 3]) -> [S::F32; 3] {
+    let lane = |i: usize, j: usize| s.mul_sub(a[i], b[j], s.mul(a[j], b[i]));
+    [lane(1, 2), lane(2, 0), lane(0, 1)]
+}
+
+/// The largest component, by size.
+#[inline(always)]
+fn largest<const N: usize, S: Simd<N>>(s: S, a: [S::F32; 3]) -> S::F32 {
+    s.max(s.abs(a[0]), s.max(s.abs(a[1]), s.abs(a[2])))
+}

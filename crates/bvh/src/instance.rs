@@ -1,0 +1,101 @@
+//! Instances: an object shown again, elsewhere.
+//!
+//! The ray is transformed, not the object: with the inverse of the transform at the ray's time, in double precision. Its
+//! direction is not normalised, so distances are the same inside and outside.
+
+use glam::{DAffine3, DMat3, DVec3, Vec3};
+
+use crate::aabb::Aabb;
+use crate::bvh::Bvh;
+use crate::ray::RayF64;
+use crate::shape::MovingTriangle;
+
+/// An affine transform: three columns and an offset. It may mirror, shear and scale as it likes, but must not flatten.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Affine {
+    /// Where the axes go.
+    pub axes: [Vec3; 3],
+    /// Where the origin goes.
+    pub offset: Vec3,
+}
+
+impl Affine {
+    /// Leaves everything where it is.
+    pub const IDENTITY: Self = Self { axes: Vec3::AXES, offset: Vec3::ZERO };
+
+    /// A shift.
+    pub fn from_translation(offset: Vec3) -> Self {
+        Self { axes: Vec3::AXES, offset }
+    }
+
+    pub(crate) fn is_finite(&self) -> bool {
+        self.offset.is_finite() && self.axes.iter().all(|axis| axis.is_finite())
+    }
+
+    fn as_daffine3(&self) -> DAffine3 {
+        let [x, y, z] = self.axes.map(|axis| axis.as_dvec3());
+        DAffine3 { matrix3: DMat3::from_cols(x, y, z), translation: self.offset.as_dvec3() }
+    }
+}
+
+/// An object shown where a transform puts it. A motion of several keys is one of these for each interval between them.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Instance {
+    /// Index in the list of [`objects`](crate::Geometry::objects).
+    pub object: u32,
+    /// From the object's space to that of the instance, at the beginning and at the end of its time; between them, the
+    /// matrices are interpolated, number by number.
+    pub at: [Affine; 2],
+    /// When it begins and ends to exist, both inclusive, in the time of [`Ray::time`](crate::Ray::time).
+    pub time: [f32; 2],
+}
+
+impl Instance {
+    /// One that does not move.
+    pub fn new(object: u32, to_world: Affine) -> Self {
+        Self { object, at: [to_world; 2], time: [f32::NEG_INFINITY, f32::INFINITY] }
+    }
+
+    /// The transform at a time, if the instance exists then.
+    pub fn to_world(&self, time: f32) -> Option<DAffine3> {
+        let [start, end] = self.time;
+        if !(start <= time && time <= end) {
+            return None;
+        }
+        let [from, to] = self.at.each_ref().map(Affine::as_daffine3);
+        if self.at[0] == self.at[1] {
+            return Some(from);
+        }
+        let share = MovingTriangle::share(start, end, time);
+        let matrix3 = from.matrix3 + (to.matrix3 - from.matrix3) * share;
+        Some(DAffine3 { matrix3, translation: from.translation.lerp(to.translation, share) })
+    }
+
+    /// Whether it shows nothing: at the beginning or at the end, the transform flattens the object or cannot be undone.
+    pub(crate) fn is_degenerate(&self) -> bool {
+        self.at.iter().any(|at| {
+            let determinant = at.as_daffine3().matrix3.determinant();
+            !determinant.recip().is_finite()
+        })
+    }
+
+    /// The box around the object at all times: points move on straight lines, so two times tell.
+    pub(crate) fn bounds(&self, object: &Bvh) -> Aabb {
+        let Aabb { lo, hi } = object.bounds();
+        if !(lo.cmple(hi).all()) {
+            return Aabb::EMPTY;
+        }
+        let corner =
+            |i: u32| DVec3::from_array([0, 1, 2].map(|axis| f64::from(if i >> axis & 1 == 1 { hi } else { lo }[axis])));
+        let at = self.at.each_ref().map(Affine::as_daffine3);
+        Aabb::around(at.into_iter().flat_map(|at| (0..8).map(move |i| at.transform_point3(corner(i)))))
+    }
+
+    /// The ray in the object's space, if the instance exists then and its transform can be undone.
+    #[inline]
+    pub(crate) fn to_object(&self, ray: &RayF64) -> Option<RayF64> {
+        let to_object = self.to_world(ray.time)?.inverse();
+        let local = RayF64::new(to_object.transform_point3(ray.o), to_object.transform_vector3(ray.d), ray.time);
+        (local.o.is_finite() && local.d.is_finite() && local.d_max > 0.0).then_some(local)
+    }
+}

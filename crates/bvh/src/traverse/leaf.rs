@@ -1,0 +1,146 @@
+//! Leaves: many primitives at once roughly, those that may be met exactly.
+
+use crate::filter::{Corners, FilterRay, each, meets_spheres};
+use crate::search::{Accept, Search, Slot};
+use crate::simd::{Cpu, LANES, Simd};
+use crate::traverse;
+use crate::wide::{FEW, Kind, SphereBlock, Tree};
+
+/// Tests the primitives of a leaf; whether one is hit, if `ANY`.
+#[inline(always)]
+pub(super) fn test_leaf<const ANY: bool, C: Cpu, A: Accept>(
+    cpu: C,
+    tree: &Tree,
+    kind: Kind,
+    block: usize,
+    ray: &FilterRay,
+    search: &mut Search,
+    accept: &A,
+) -> bool {
+    let t_max = search.t_max();
+    let leaf = Leaf { tree, kind, block };
+    match kind {
+        Kind::Triangles => {
+            let b = &tree.triangles[block];
+            let met = Corners::<LANES, false, C>::meet(cpu, ray, b.load(cpu), (b.size, 0.0), b.used, t_max);
+            leaf.take::<ANY, LANES, false, _>(cpu, met, search, accept)
+        }
+        Kind::FewTriangles => {
+            let b = &tree.few_triangles[block];
+            let met = Corners::<FEW, false, C>::meet(cpu, ray, b.load(cpu), (b.size, 0.0), b.used, t_max);
+            leaf.take::<ANY, FEW, false, _>(cpu, met, search, accept)
+        }
+        Kind::Quads => {
+            let b = &tree.quads[block];
+            let met = Corners::<LANES, true, C>::meet(cpu, ray, b.load(cpu), (b.size, 0.0), b.used, t_max);
+            leaf.take::<ANY, LANES, true, _>(cpu, met, search, accept)
+        }
+        Kind::Spheres => {
+            let met = meet_spheres(cpu, ray, &tree.spheres[block], t_max);
+            leaf.test::<ANY>(met, search, accept)
+        }
+        Kind::Moving => {
+            let (b, time) = (&tree.moving[block], search.ray.time);
+            let points = b.load(cpu, time);
+            let met = Corners::<FEW, false, C>::meet(cpu, ray, points, (b.size, b.reach), b.used(time), t_max);
+            leaf.take::<ANY, FEW, false, _>(cpu, met, search, accept)
+        }
+        Kind::Instance => test_instance::<ANY>(tree, block, search, accept),
+        Kind::Nothing => false,
+    }
+}
+
+#[inline(always)]
+fn meet_spheres<C: Cpu>(cpu: C, ray: &FilterRay, block: &SphereBlock, t_max: f32) -> u32 {
+    let center = each(|axis| Simd::<LANES>::load(cpu, &block.center[axis]));
+    meets_spheres::<LANES, C>(cpu, ray, (center, Simd::<LANES>::load(cpu, &block.radius)), block.used, t_max)
+}
+
+/// A block of primitives.
+struct Leaf<'a> {
+    tree: &'a Tree,
+    kind: Kind,
+    block: usize,
+}
+
+impl Leaf<'_> {
+    /// Notes certain hits, and tests what may be hit.
+    #[inline(always)]
+    fn take<const ANY: bool, const N: usize, const QUAD: bool, S: Simd<N>>(
+        &self,
+        s: S,
+        met: Option<Corners<N, QUAD, S>>,
+        search: &mut Search,
+        accept: &impl Accept,
+    ) -> bool {
+        let Some(corners) = met else {
+            return false;
+        };
+        if !accept_everything(accept) {
+            return self.test::<ANY>(corners.met, search, accept);
+        }
+        let certain = corners.certain(s, search.t_min(), search.t_max());
+        if ANY {
+            return certain != 0 || self.test::<ANY>(corners.met, search, accept);
+        }
+        let (near, far) = corners.distances(s);
+        let mut met = corners.met;
+        while met != 0 {
+            let lane = met.trailing_zeros() as usize & (N - 1);
+            met &= met - 1;
+            let slot = Slot::new(self.kind, self.block, lane);
+            if certain >> lane & 1 == 0 {
+                search.test(self.tree, slot, accept);
+            } else if far[lane] < search.t_max() {
+                search.certain(self.tree, slot, near[lane], far[lane], accept);
+            } else if near[lane] <= search.t_max() {
+                search.test(self.tree, slot, accept);
+            }
+        }
+        false
+    }
+
+    /// Tests what may be hit.
+    #[inline(always)]
+    fn test<const ANY: bool>(&self, mut met: u32, search: &mut Search, accept: &impl Accept) -> bool {
+        while met != 0 {
+            let lane = met.trailing_zeros() as usize & (LANES - 1);
+            met &= met - 1;
+            search.test(self.tree, Slot::new(self.kind, self.block, lane), accept);
+            if ANY && search.found() {
+                return true;
+            }
+        }
+        false
+    }
+}
+
+#[inline(always)]
+fn accept_everything<A: Accept>(_: &A) -> bool {
+    A::EVERYTHING
+}
+
+/// Goes on within an instance.
+#[inline(never)]
+pub(super) fn test_instance<const ANY: bool>(
+    tree: &Tree,
+    block: usize,
+    search: &mut Search,
+    accept: &impl Accept,
+) -> bool {
+    search.settle(tree, accept);
+    let instance = tree.instance(block);
+    let object = &*tree.objects[instance.object as usize];
+    let Some(entry) = search.ray.enters(instance.bounds(object)) else {
+        return false;
+    };
+    let Some(ray) = instance.to_object(&search.ray) else {
+        return false;
+    };
+    let Some(mut inner) = search.enter(ray, tree.instances[block].id, entry as f32) else {
+        return false;
+    };
+    let is_hit = traverse::search::<ANY>(object, &FilterRay::rounded(&inner.ray), &mut inner, accept);
+    search.leave(&inner);
+    is_hit
+}

@@ -1,0 +1,146 @@
+//! The walk of a ray through the tree, written once for every kind of processor.
+
+mod leaf;
+mod list;
+mod stack;
+
+use crate::bvh::Bvh;
+use crate::filter::{BoxLanes, FilterRay};
+use crate::search::{Accept, Search};
+#[cfg(target_arch = "x86_64")]
+use crate::simd::Avx2;
+use crate::simd::{Cpu, LANES, Processor, Simd};
+use crate::traverse::leaf::test_leaf;
+use crate::traverse::stack::{Entry, Stack};
+use crate::wide::{Child, Node, Target, Tree};
+
+/// Looks for the nearest hit, or, if `ANY`, for any: then the search ends with the first, and the return value says whether
+/// there is one.
+#[inline]
+pub(crate) fn search<const ANY: bool>(bvh: &Bvh, ray: &FilterRay, search: &mut Search, accept: &impl Accept) -> bool {
+    if bvh.is_list {
+        return list::test_all::<ANY>(&bvh.tree, search, accept);
+    }
+    match bvh.cpu {
+        #[cfg(target_arch = "x86_64")]
+        // SAFETY: `avx2` is the proof that the processor has what it needs.
+        Processor::Avx2(avx2) => unsafe { walk_avx2::<ANY, _>(avx2, bvh, ray, search, accept) },
+        Processor::Scalar(scalar) => walk::<ANY, _, _>(scalar, bvh, ray, search, accept),
+    }
+}
+
+#[cfg(target_arch = "x86_64")]
+#[target_feature(enable = "avx2,fma,bmi1,bmi2")]
+fn walk_avx2<const ANY: bool, A: Accept>(
+    avx2: Avx2,
+    bvh: &Bvh,
+    ray: &FilterRay,
+    search: &mut Search,
+    accept: &A,
+) -> bool {
+    walk::<ANY, _, _>(avx2, bvh, ray, search, accept)
+}
+
+/// Visits what the ray may meet, near things first.
+#[inline(always)]
+fn walk<const ANY: bool, C: Cpu, A: Accept>(
+    cpu: C,
+    bvh: &Bvh,
+    ray: &FilterRay,
+    search: &mut Search,
+    accept: &A,
+) -> bool {
+    let tree = &bvh.tree;
+    let mut next = tree.root;
+    let boxes = match next.target() {
+        Target::Node(_) => BoxLanes::new(cpu, ray, bvh.reach),
+        // Few primitives have no boxes.
+        Target::Leaf(..) => BoxLanes::unused(cpu),
+    };
+    let (mut stack, mut height) = (Stack::new(), 0);
+    loop {
+        let nearest = match next.target() {
+            Target::Node(index) => {
+                push_children::<ANY, _>(cpu, tree, &tree.nodes[index], &boxes, search.t_max(), &mut stack, &mut height)
+            }
+            Target::Leaf(kind, block) => {
+                if test_leaf::<ANY, _, _>(cpu, tree, kind, block, ray, search, accept) {
+                    return true;
+                }
+                None
+            }
+        };
+        next = match nearest {
+            Some(child) => child,
+            None => match stack.pop(&mut height, search.t_max()) {
+                Some(child) => child,
+                None => break,
+            },
+        };
+    }
+    search.settle(tree, accept);
+    false
+}
+
+/// Puts the children that the ray may meet on the stack, the farthest first, but for the nearest, which it returns. If `ANY`, in
+/// no order.
+#[inline(always)]
+fn push_children<const ANY: bool, C: Cpu>(
+    cpu: C,
+    tree: &Tree,
+    node: &Node,
+    boxes: &BoxLanes<C>,
+    t_max: f32,
+    stack: &mut Stack,
+    height: &mut usize,
+) -> Option<Child> {
+    let (near, mut met) = boxes.meets(cpu, &node.planes, t_max);
+    if met == 0 {
+        return None;
+    }
+    let first = take_lane(&mut met);
+    if met == 0 {
+        return Some(node.child[first]);
+    }
+    if ANY {
+        while met != 0 {
+            let child = node.child[take_lane(&mut met)];
+            prefetch(cpu, tree, child);
+            stack.push(height, Entry::new(0.0, child));
+        }
+        return Some(node.child[first]);
+    }
+    let near = Simd::<LANES>::store(cpu, near);
+    let entry = |lane: usize| {
+        prefetch(cpu, tree, node.child[lane]);
+        Entry::new(near[lane], node.child[lane])
+    };
+    let (a, b) = (entry(first), entry(take_lane(&mut met)));
+    let (nearer, farther) = (a.min(b), a.max(b));
+    let base = *height;
+    stack.push(height, farther);
+    if met == 0 {
+        return Some(nearer.child());
+    }
+    stack.push(height, nearer);
+    while met != 0 {
+        stack.insert(base, height, entry(take_lane(&mut met)));
+    }
+    stack.pop(height, f32::INFINITY)
+}
+
+/// Takes the lowest lane off a set that is not empty.
+#[inline(always)]
+fn take_lane(lanes: &mut u32) -> usize {
+    let lane = lanes.trailing_zeros() as usize & (LANES - 1);
+    *lanes &= *lanes - 1;
+    lane
+}
+
+/// Leaves are not worth the branch.
+#[inline(always)]
+fn prefetch<C: Cpu>(cpu: C, tree: &Tree, child: Child) {
+    if let Target::Node(index) = child.target() {
+        cpu.prefetch(&tree.nodes, index);
+    }
+}
