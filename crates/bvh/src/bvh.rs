@@ -5,7 +5,6 @@ use glam::{DAffine3, DVec3};
 use crate::aabb::Aabb;
 use crate::build::{Quality, build};
 use crate::error::BuildError;
-use crate::filter::FilterRay;
 use crate::geometry::Geometry;
 use crate::instance::Instance;
 use crate::ray::{Hit, Ray};
@@ -13,7 +12,7 @@ use crate::search::{Accept, Everything, Search, Where};
 use crate::shape::Surface;
 use crate::simd::{Isa, Processor};
 use crate::stats::Stats;
-use crate::traverse;
+use crate::traverse::Walk;
 use crate::wide::{Child, Tree};
 
 /// Primitives sorted for rays.
@@ -124,7 +123,7 @@ impl Bvh {
 
     #[inline(always)]
     fn search<const ANY: bool>(&self, ray: &Ray, search: &mut Search, accept: &impl Accept) -> bool {
-        traverse::search::<ANY>(self, &FilterRay::new(ray), search, accept)
+        Walk::<ANY, _> { bvh: self, ray, o_error: 0.0, search, accept }.search()
     }
 
     /// As [`intersect`](Self::intersect), for many rays.

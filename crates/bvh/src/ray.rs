@@ -96,6 +96,11 @@ impl RayF64 {
         Self { o, d, d_max: d.abs().max_element(), time }
     }
 
+    /// In single precision.
+    pub(crate) fn rounded(&self) -> Ray {
+        Ray { o: self.o.as_vec3(), d: self.d.as_vec3(), t_max: f32::INFINITY, time: self.time }
+    }
+
     /// The distance at which the ray enters a box, if it meets it.
     ///
     /// Boxes in the tree are tested in single precision, wider by more than that loses, so a box that is met here is met

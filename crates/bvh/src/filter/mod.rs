@@ -12,7 +12,7 @@ pub(crate) use boxes::BoxLanes;
 pub(crate) use corners::Corners;
 pub(crate) use spheres::meets_spheres;
 
-use crate::ray::{Ray, RayF64};
+use crate::ray::Ray;
 use crate::simd::Simd;
 
 /// Rounding errors of the sums of products in these tests, relative to their largest factors: about 20 roundings each, and
@@ -34,15 +34,11 @@ pub(crate) struct FilterRay {
 }
 
 impl FilterRay {
+    /// A ray whose origin is off by at most a rounding of `o_error`.
     #[inline(always)]
-    pub(crate) fn new(ray: &Ray) -> Self {
-        Self { o: ray.o.to_array(), d: ray.d.to_array(), d_max: ray.d.abs().max_element(), o_error: 0.0 }
-    }
-
-    /// From double precision, rounded.
-    pub(crate) fn rounded(ray: &RayF64) -> Self {
-        let (o, d) = (ray.o.as_vec3(), ray.d.as_vec3());
-        Self { o: o.to_array(), d: d.to_array(), d_max: d.abs().max_element(), o_error: o.abs().max_element() }
+    pub(crate) fn new(ray: &Ray, o_error: f32) -> Self {
+        let [o, d] = [ray.o.to_array(), ray.d.to_array()];
+        Self { o, d, d_max: d[0].abs().max(d[1].abs()).max(d[2].abs()), o_error }
     }
 
     #[inline(always)]

@@ -22,39 +22,47 @@ struct Vertex {
 /// The vertices in the space of the ray, and the distance at which the ray has moved by 1 along its axis.
 #[inline(always)]
 fn project<const N: usize>(vertices: [DVec3; N], ray: &RayF64) -> ([Vertex; N], f64) {
-    let size = ray.d.abs();
     // The axes in order, the longest of the direction last: shears are at most 1.
-    let turn = |v: DVec3| match (size.x > size.y, size.x > size.z, size.y > size.z) {
-        (true, true, _) => DVec3::new(v.y, v.z, v.x),
-        (false, _, true) => DVec3::new(v.z, v.x, v.y),
-        _ => v,
-    };
-    let d = turn(ray.d);
-    let along_inv = 1.0 / d.z;
-    let shear = DVec2::new(d.x, d.y) * along_inv;
+    const ORDERS: [[usize; 3]; 3] = [[1, 2, 0], [2, 0, 1], [0, 1, 2]];
+    let size = ray.d.abs();
+    let longest = if size.x > size.y { if size.x > size.z { 0 } else { 2 } } else { 2 - usize::from(size.y > size.z) };
+    let [x, y, z] = ORDERS[longest];
+    let (o, d) = (ray.o.to_array(), ray.d.to_array());
+    let along_inv = 1.0 / d[z];
+    let shear = DVec2::new(d[x], d[y]) * along_inv;
     let vertex = |p: DVec3| {
-        let p = turn(p - ray.o);
-        Vertex { across: DVec2::new(p.x, p.y) - shear * p.z, along: p.z }
+        let p = p.to_array();
+        let along = p[z] - o[z];
+        Vertex { across: DVec2::new(p[x] - o[x], p[y] - o[y]) - shear * along, along }
     };
     (vertices.map(vertex), along_inv)
 }
 
-/// On which side of the line from one point to another the origin is: the sign is right, however small the difference.
+/// Twice the area that the origin and an edge span, positive if the origin is to its left.
 #[inline(always)]
 fn side(from: DVec2, to: DVec2) -> f64 {
+    from.x * to.y - from.y * to.x
+}
+
+/// As [`side`], where the products are the same when they are rounded: what was rounded off decides, so the sign is right.
+#[cold]
+fn side_of_rest(from: DVec2, to: DVec2) -> f64 {
     let (x, y) = (from.x * to.y, from.y * to.x);
-    let difference = x - y;
-    // Products that are the same when they are rounded: what was rounded off decides.
-    if difference == 0.0 { from.x.mul_add(to.y, -x) - from.y.mul_add(to.x, -y) } else { difference }
+    if x == y { from.x.mul_add(to.y, -x) - from.y.mul_add(to.x, -y) } else { x - y }
 }
 
 /// The hit of a triangle: distance, and weights of the second and the third vertex.
 #[inline(always)]
 fn weigh([a, b, c]: [Vertex; 3], along_inv: f64) -> Option<(f64, [f64; 2])> {
-    let (u, v, w) = (side(b.across, c.across), side(c.across, a.across), side(a.across, b.across));
-    // Some on either side, or the triangle is seen as a line.
+    let edges = [(b.across, c.across), (c.across, a.across), (a.across, b.across)];
+    let [mut u, mut v, mut w] = edges.map(|(from, to)| side(from, to));
+    if (u == 0.0) | (v == 0.0) | (w == 0.0) {
+        [u, v, w] = edges.map(|(from, to)| side_of_rest(from, to));
+    }
+    let is_split = ((u < 0.0) | (v < 0.0) | (w < 0.0)) & ((u > 0.0) | (v > 0.0) | (w > 0.0));
     let sum = u + v + w;
-    if (u.min(v).min(w) < 0.0 && u.max(v).max(w) > 0.0) || sum == 0.0 {
+    // Seen as a line, a triangle is not hit.
+    if is_split | (sum == 0.0) {
         return None;
     }
     let t = (u * a.along + v * b.along + w * c.along) / sum * along_inv;

@@ -2,7 +2,7 @@
 
 use std::arch::x86_64::*;
 
-use crate::simd::{Cpu, Simd};
+use crate::simd::{Cpu, Simd, Task};
 
 /// The proof that the processor has AVX2, FMA and BMI: [`detect`](Self::detect) is the only way to get one.
 #[derive(Clone, Copy, Debug)]
@@ -117,6 +117,17 @@ impl_simd! {
 }
 
 impl Cpu for Avx2 {
+    #[inline(always)]
+    fn call<T: Task>(self, task: T) -> T::Output {
+        #[inline(never)]
+        #[target_feature(enable = "avx2,fma,bmi1,bmi2")]
+        fn run<T: Task>(avx2: Avx2, task: T) -> T::Output {
+            task.run(avx2)
+        }
+        // SAFETY: `self` proves that the processor has these.
+        unsafe { run(self, task) }
+    }
+
     #[inline(always)]
     fn prefetch<T>(self, list: &[T], index: usize) {
         let start = list.as_ptr().wrapping_add(index).cast::<i8>();

@@ -52,8 +52,20 @@ pub(crate) trait Simd<const N: usize>: Copy {
 
 /// A processor's way to compute with four and with eight numbers.
 pub(crate) trait Cpu: Simd<4> + Simd<LANES> {
+    /// Runs a task in a function of its own that is compiled for the processor.
+    fn call<T: Task>(self, task: T) -> T::Output;
+
     /// Says that an element of a list will be read soon.
     fn prefetch<T>(self, list: &[T], index: usize);
+}
+
+/// Work that is written once for every kind of processor.
+pub(crate) trait Task {
+    type Output;
+
+    /// Must be inlined, and all that it calls with `cpu`, for instructions beyond the target's own are inlined only where they
+    /// are enabled.
+    fn run<C: Cpu>(self, cpu: C) -> Self::Output;
 }
 
 /// The best that this processor has.
@@ -94,4 +106,16 @@ pub(crate) enum Processor {
     Scalar(Scalar),
     #[cfg(target_arch = "x86_64")]
     Avx2(Avx2),
+}
+
+impl Processor {
+    /// Runs a task.
+    #[inline(always)]
+    pub(crate) fn call<T: Task>(self, task: T) -> T::Output {
+        match self {
+            Self::Scalar(scalar) => scalar.call(task),
+            #[cfg(target_arch = "x86_64")]
+            Self::Avx2(avx2) => avx2.call(task),
+        }
+    }
 }

@@ -1,6 +1,6 @@
 //! Plain loops over arrays: the reference, and the path of processors without anything better.
 
-use crate::simd::{Cpu, Simd};
+use crate::simd::{Cpu, Simd, Task};
 
 /// Every processor has this.
 #[derive(Clone, Copy, Debug)]
@@ -85,6 +85,11 @@ impl<const N: usize> Simd<N> for Scalar {
 }
 
 impl Cpu for Scalar {
+    #[inline(never)]
+    fn call<T: Task>(self, task: T) -> T::Output {
+        task.run(self)
+    }
+
     #[inline(always)]
     fn prefetch<T>(self, _: &[T], _: usize) {}
 }

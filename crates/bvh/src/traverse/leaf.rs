@@ -2,11 +2,12 @@
 
 use crate::filter::{Corners, FilterRay, each, meets_spheres};
 use crate::search::{Accept, Search, Slot};
-use crate::simd::{Cpu, LANES, Simd};
-use crate::traverse;
-use crate::wide::{FEW, Kind, SphereBlock, Tree};
+use crate::simd::{Cpu, LANES, Simd, Task};
+use crate::traverse::Walk;
+use crate::wide::{FEW, Kind, Tree};
 
-/// Tests the primitives of a leaf; whether one is hit, if `ANY`.
+/// Tests the primitives of a leaf; whether one is hit, if `ANY`. All but triangles are tested out of line, so that the walk
+/// keeps its registers for these.
 #[inline(always)]
 pub(super) fn test_leaf<const ANY: bool, C: Cpu, A: Accept>(
     cpu: C,
@@ -30,30 +31,48 @@ pub(super) fn test_leaf<const ANY: bool, C: Cpu, A: Accept>(
             let met = Corners::<FEW, false, C>::meet(cpu, ray, b.load(cpu), (b.size, 0.0), b.used, t_max);
             leaf.take::<ANY, FEW, false, _>(cpu, met, search, accept)
         }
-        Kind::Quads => {
-            let b = &tree.quads[block];
-            let met = Corners::<LANES, true, C>::meet(cpu, ray, b.load(cpu), (b.size, 0.0), b.used, t_max);
-            leaf.take::<ANY, LANES, true, _>(cpu, met, search, accept)
-        }
-        Kind::Spheres => {
-            let met = meet_spheres(cpu, ray, &tree.spheres[block], t_max);
-            leaf.test::<ANY>(met, search, accept)
-        }
-        Kind::Moving => {
-            let (b, time) = (&tree.moving[block], search.ray.time);
-            let points = b.load(cpu, time);
-            let met = Corners::<FEW, false, C>::meet(cpu, ray, points, (b.size, b.reach), b.used(time), t_max);
-            leaf.take::<ANY, FEW, false, _>(cpu, met, search, accept)
-        }
-        Kind::Instance => test_instance::<ANY>(tree, block, search, accept),
-        Kind::Nothing => false,
+        _ => cpu.call(OtherLeaf::<ANY, A> { leaf, ray, search, accept }),
     }
 }
 
-#[inline(always)]
-fn meet_spheres<C: Cpu>(cpu: C, ray: &FilterRay, block: &SphereBlock, t_max: f32) -> u32 {
-    let center = each(|axis| Simd::<LANES>::load(cpu, &block.center[axis]));
-    meets_spheres::<LANES, C>(cpu, ray, (center, Simd::<LANES>::load(cpu, &block.radius)), block.used, t_max)
+/// A leaf of quads, spheres, moving triangles or an instance.
+struct OtherLeaf<'a, const ANY: bool, A> {
+    leaf: Leaf<'a>,
+    ray: &'a FilterRay,
+    search: &'a mut Search,
+    accept: &'a A,
+}
+
+impl<const ANY: bool, A: Accept> Task for OtherLeaf<'_, ANY, A> {
+    type Output = bool;
+
+    #[inline(always)]
+    fn run<C: Cpu>(self, cpu: C) -> bool {
+        let Self { leaf, ray, search, accept } = self;
+        let (tree, block, t_max) = (leaf.tree, leaf.block, search.t_max());
+        match leaf.kind {
+            Kind::Quads => {
+                let b = &tree.quads[block];
+                let met = Corners::<LANES, true, C>::meet(cpu, ray, b.load(cpu), (b.size, 0.0), b.used, t_max);
+                leaf.take::<ANY, LANES, true, _>(cpu, met, search, accept)
+            }
+            Kind::Spheres => {
+                let b = &tree.spheres[block];
+                let center = each(|axis| Simd::<LANES>::load(cpu, &b.center[axis]));
+                let radius = Simd::<LANES>::load(cpu, &b.radius);
+                let met = meets_spheres::<LANES, C>(cpu, ray, (center, radius), b.used, t_max);
+                leaf.test::<ANY>(met, search, accept)
+            }
+            Kind::Moving => {
+                let (b, time) = (&tree.moving[block], search.ray.time);
+                let points = b.load(cpu, time);
+                let met = Corners::<FEW, false, C>::meet(cpu, ray, points, (b.size, b.reach), b.used(time), t_max);
+                leaf.take::<ANY, FEW, false, _>(cpu, met, search, accept)
+            }
+            Kind::Instance => test_instance::<ANY>(tree, block, search, accept),
+            Kind::Triangles | Kind::FewTriangles | Kind::Nothing => false,
+        }
+    }
 }
 
 /// A block of primitives.
@@ -140,7 +159,9 @@ pub(super) fn test_instance<const ANY: bool>(
     let Some(mut inner) = search.enter(ray, tree.instances[block].id, entry as f32) else {
         return false;
     };
-    let is_hit = traverse::search::<ANY>(object, &FilterRay::rounded(&inner.ray), &mut inner, accept);
+    let ray = inner.ray.rounded();
+    let o_error = ray.o.abs().max_element();
+    let is_hit = Walk::<ANY, _> { bvh: object, ray: &ray, o_error, search: &mut inner, accept }.search();
     search.leave(&inner);
     is_hit
 }

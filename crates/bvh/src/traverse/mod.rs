@@ -6,80 +6,73 @@ mod stack;
 
 use crate::bvh::Bvh;
 use crate::filter::{BoxLanes, FilterRay};
+use crate::ray::Ray;
 use crate::search::{Accept, Search};
-#[cfg(target_arch = "x86_64")]
-use crate::simd::Avx2;
-use crate::simd::{Cpu, LANES, Processor, Simd};
+use crate::simd::{Cpu, LANES, Simd, Task};
 use crate::traverse::leaf::test_leaf;
 use crate::traverse::stack::{Entry, Stack};
 use crate::wide::{Child, Node, Target, Tree};
 
-/// Looks for the nearest hit, or, if `ANY`, for any: then the search ends with the first, and the return value says whether
-/// there is one.
-#[inline]
-pub(crate) fn search<const ANY: bool>(bvh: &Bvh, ray: &FilterRay, search: &mut Search, accept: &impl Accept) -> bool {
-    if bvh.is_list {
-        return list::test_all::<ANY>(&bvh.tree, search, accept);
-    }
-    match bvh.cpu {
-        #[cfg(target_arch = "x86_64")]
-        // SAFETY: `avx2` is the proof that the processor has what it needs.
-        Processor::Avx2(avx2) => unsafe { walk_avx2::<ANY, _>(avx2, bvh, ray, search, accept) },
-        Processor::Scalar(scalar) => walk::<ANY, _, _>(scalar, bvh, ray, search, accept),
+/// A search for the nearest hit, or, if `ANY`, for any: then it ends with the first, and the outcome says whether there is one.
+pub(crate) struct Walk<'a, const ANY: bool, A> {
+    pub(crate) bvh: &'a Bvh,
+    pub(crate) ray: &'a Ray,
+    /// The ray's origin is off by at most a rounding of this.
+    pub(crate) o_error: f32,
+    pub(crate) search: &'a mut Search,
+    pub(crate) accept: &'a A,
+}
+
+impl<const ANY: bool, A: Accept> Walk<'_, ANY, A> {
+    #[inline(always)]
+    pub(crate) fn search(self) -> bool {
+        if self.bvh.is_list {
+            return list::test_all::<ANY>(&self.bvh.tree, self.search, self.accept);
+        }
+        self.bvh.cpu.call(self)
     }
 }
 
-#[cfg(target_arch = "x86_64")]
-#[target_feature(enable = "avx2,fma,bmi1,bmi2")]
-fn walk_avx2<const ANY: bool, A: Accept>(
-    avx2: Avx2,
-    bvh: &Bvh,
-    ray: &FilterRay,
-    search: &mut Search,
-    accept: &A,
-) -> bool {
-    walk::<ANY, _, _>(avx2, bvh, ray, search, accept)
-}
+impl<const ANY: bool, A: Accept> Task for Walk<'_, ANY, A> {
+    type Output = bool;
 
-/// Visits what the ray may meet, near things first.
-#[inline(always)]
-fn walk<const ANY: bool, C: Cpu, A: Accept>(
-    cpu: C,
-    bvh: &Bvh,
-    ray: &FilterRay,
-    search: &mut Search,
-    accept: &A,
-) -> bool {
-    let tree = &bvh.tree;
-    let mut next = tree.root;
-    let boxes = match next.target() {
-        Target::Node(_) => BoxLanes::new(cpu, ray, bvh.reach),
-        // Few primitives have no boxes.
-        Target::Leaf(..) => BoxLanes::unused(cpu),
-    };
-    let (mut stack, mut height) = (Stack::new(), 0);
-    loop {
-        let nearest = match next.target() {
-            Target::Node(index) => {
-                push_children::<ANY, _>(cpu, tree, &tree.nodes[index], &boxes, search.t_max(), &mut stack, &mut height)
-            }
-            Target::Leaf(kind, block) => {
-                if test_leaf::<ANY, _, _>(cpu, tree, kind, block, ray, search, accept) {
-                    return true;
+    /// Visits what the ray may meet, near things first.
+    #[inline(always)]
+    fn run<C: Cpu>(self, cpu: C) -> bool {
+        let Self { bvh, ray, o_error, search, accept } = self;
+        let tree = &bvh.tree;
+        let ray = FilterRay::new(ray, o_error);
+        let mut next = tree.root;
+        let boxes = match next.target() {
+            Target::Node(_) => BoxLanes::new(cpu, &ray, bvh.reach),
+            // Few primitives have no boxes.
+            Target::Leaf(..) => BoxLanes::unused(cpu),
+        };
+        let (mut stack, mut height) = (Stack::new(), 0);
+        loop {
+            let nearest = match next.target() {
+                Target::Node(index) => {
+                    let node = tree.node(index);
+                    push_children::<ANY, _>(cpu, tree, node, &boxes, search.t_max(), &mut stack, &mut height)
                 }
-                None
-            }
-        };
-        next = match nearest {
-            Some(child) => child,
-            None => match stack.pop(&mut height, search.t_max()) {
+                Target::Leaf(kind, block) => {
+                    if test_leaf::<ANY, _, _>(cpu, tree, kind, block, &ray, search, accept) {
+                        return true;
+                    }
+                    None
+                }
+            };
+            next = match nearest {
                 Some(child) => child,
-                None => break,
-            },
-        };
+                None => match stack.pop(&mut height, search.t_max()) {
+                    Some(child) => child,
+                    None => break,
+                },
+            };
+        }
+        search.settle(tree, accept);
+        false
     }
-    search.settle(tree, accept);
-    false
 }
 
 /// Puts the children that the ray may meet on the stack, the farthest first, but for the nearest, which it returns. If `ANY`, in

@@ -65,6 +65,14 @@ impl Tree {
         push(&mut self.instances, InstanceLeaf { id, object, transform, moves, time })
     }
 
+    /// A node that the root or a child refers to.
+    #[inline(always)]
+    pub(crate) fn node(&self, index: usize) -> &Node {
+        debug_assert!(index < self.nodes.len());
+        // SAFETY: builders make no other references (`Bvh::validate` checks it), and nodes are never taken away.
+        unsafe { self.nodes.get_unchecked(index) }
+    }
+
     /// The blocks that there are of each kind.
     pub(crate) fn blocks(&self) -> [(Kind, usize); 6] {
         [
