@@ -132,7 +132,7 @@ impl Embree {
         let folder = Path::new(concat!(env!("CARGO_MANIFEST_DIR"), "/../target/embree"));
         let path = env::var_os("EMBREE_LIB").map(PathBuf::from).or_else(|| find(folder));
         let path =
-            path.ok_or_else(|| format!("no Embree in target/embree, so its columns stay empty\nhint: {HINT}"))?;
+            path.ok_or_else(|| format!("no Embree in target/embree, so there are no columns for it\nhint: {HINT}"))?;
         let api = Api::load(&path).map_err(|e| format!("{} is not Embree 4: {e}\nhint: {HINT}", path.display()))?;
         Ok(Self { api })
     }
