@@ -1,6 +1,8 @@
 # The few commands that a person needs.
 
-.PHONY: test bench figures pictures schema
+EMBREE_VERSION = 4.4.0.post1
+
+.PHONY: test bench bench-kernel figures pictures schema
 
 # Everything that can be checked: format, lints, tests, examples in the documentation, and that it builds.
 test:
@@ -13,6 +15,15 @@ test:
 # Speed, and the comparison with a textbook program (docs/performance.md).
 bench:
 	cargo bench -p eyebeam-bench
+
+# The ray kernel against Embree, which is unpacked to target/embree if it can be had; otherwise its columns stay empty.
+bench-kernel:
+	@ls target/embree/embreex*/libembree4*.so* >/dev/null 2>&1 || { \
+		mkdir -p target/embree \
+		&& python3 -m pip download --quiet --no-deps embreex==$(EMBREE_VERSION) -d target/embree \
+		&& python3 -m zipfile -e target/embree/embreex-$(EMBREE_VERSION)-*.whl target/embree; \
+	} || echo "Embree could not be fetched: going on without it" >&2
+	cargo run --release --locked -p eyebeam-bench -- kernel $(ARGS)
 
 # The study: pictures and numbers (docs/figures).
 figures:

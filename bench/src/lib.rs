@@ -1,6 +1,7 @@
-//! How fast the renderer is, and a textbook program to compare it with.
-#![forbid(unsafe_code)]
+//! How fast the renderer is, and what to compare it with: a textbook program, and Embree.
+#![deny(unsafe_code)]
 
+pub mod kernel;
 pub mod measure;
 pub mod textbook;
 mod vec3;

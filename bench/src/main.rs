@@ -2,10 +2,12 @@
 #![forbid(unsafe_code)]
 
 use std::error::Error;
+use std::io::stdout;
 use std::num::NonZeroUsize;
 use std::time::Instant;
 
 use clap::{Parser, Subcommand};
+use eyebeam_bench::kernel::{self, Embree, Options};
 use eyebeam_bench::measure::{median, read_scene, render, samples, shrink, thread_time};
 use eyebeam_bench::textbook::Textbook;
 use eyebeam_core::desc::SceneDesc;
@@ -33,13 +35,19 @@ enum Command {
     Compare,
     /// Samples per second of several threads, against one's: the best of all rounds
     Threads,
+    /// The ray kernel against Embree and against the textbook's ways to find a hit: rays, builds, threads
+    Kernel(Options),
 }
 
 fn main() -> Result<(), Box<dyn Error>> {
     let args = Args::parse();
-    match args.command {
+    match &args.command {
         Command::Compare => compare(&args),
         Command::Threads => threads(&args),
+        Command::Kernel(options) => {
+            let embree = Embree::load().inspect_err(|message| eprintln!("{message}")).ok();
+            kernel::run(options, args.rounds as usize, embree.as_ref(), &mut stdout())
+        }
     }
 }
 

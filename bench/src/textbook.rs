@@ -20,6 +20,11 @@ use eyebeam_core::material::MaterialDesc;
 
 use crate::vec3::Vec3;
 
+mod bvh;
+
+use bvh::Aabb;
+pub use bvh::Queries;
+
 thread_local! {
     static STATE: Cell<u64> = const { Cell::new(0x2545_f491_4f6c_dd1d) };
 }
@@ -54,8 +59,9 @@ fn random_in_unit_disk() -> Vec3 {
     }
 }
 
+/// The book's ray.
 #[derive(Clone, Copy)]
-struct Ray {
+pub struct Ray {
     origin: Vec3,
     direction: Vec3,
 }
@@ -77,6 +83,8 @@ struct HitRecord<'a> {
 
 trait Hittable: Send + Sync {
     fn hit(&self, ray: &Ray, t_min: f64, t_max: f64) -> Option<HitRecord<'_>>;
+
+    fn bounding_box(&self) -> Aabb;
 }
 
 struct Sphere {
@@ -109,6 +117,12 @@ impl Hittable for Sphere {
         let normal = if front_face { outward } else { -outward };
         Some(HitRecord { p, normal, t, front_face, material: &*self.material })
     }
+
+    fn bounding_box(&self) -> Aabb {
+        let r = self.radius;
+        let corner = Vec3::new(r, r, r);
+        Aabb { minimum: self.center - corner, maximum: self.center + corner }
+    }
 }
 
 struct HittableList {
@@ -126,6 +140,10 @@ impl Hittable for HittableList {
             }
         }
         closest
+    }
+
+    fn bounding_box(&self) -> Aabb {
+        Aabb::around(&self.objects)
     }
 }
 
