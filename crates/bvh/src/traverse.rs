@@ -9,6 +9,8 @@ use crate::ray::{Hit, Ray};
 use crate::search::{Search, Slot};
 #[cfg(target_arch = "x86_64")]
 use crate::simd::Avx2;
+#[cfg(target_arch = "aarch64")]
+use crate::simd::Neon;
 use crate::simd::{Isa, LANES, Scalar, Simd};
 use crate::wide::{Child, Kind, Node, Target, Tree};
 
@@ -22,6 +24,12 @@ pub(crate) fn closest(bvh: &Bvh, ray: &Ray, isa: Isa) -> Option<Hit> {
             Some(avx2) => unsafe { walk_avx2(avx2, bvh, ray) },
             None => walk(Scalar, bvh, ray),
         },
+        #[cfg(target_arch = "aarch64")]
+        Isa::Neon => match Neon::detect() {
+            // SAFETY: `neon` is the proof that the processor has NEON.
+            Some(neon) => unsafe { walk_neon(neon, bvh, ray) },
+            None => walk(Scalar, bvh, ray),
+        },
         Isa::Scalar => walk(Scalar, bvh, ray),
     }
 }
@@ -30,6 +38,12 @@ pub(crate) fn closest(bvh: &Bvh, ray: &Ray, isa: Isa) -> Option<Hit> {
 #[target_feature(enable = "avx2,fma")]
 fn walk_avx2(avx2: Avx2, bvh: &Bvh, ray: &Ray) -> Option<Hit> {
     walk(avx2, bvh, ray)
+}
+
+#[cfg(target_arch = "aarch64")]
+#[target_feature(enable = "neon")]
+fn walk_neon(neon: Neon, bvh: &Bvh, ray: &Ray) -> Option<Hit> {
+    walk(neon, bvh, ray)
 }
 
 /// Visits what the ray may meet, near things first.

@@ -6,10 +6,14 @@
 
 #[cfg(target_arch = "x86_64")]
 mod avx2;
+#[cfg(target_arch = "aarch64")]
+mod neon;
 mod scalar;
 
 #[cfg(target_arch = "x86_64")]
 pub(crate) use avx2::Avx2;
+#[cfg(target_arch = "aarch64")]
+pub(crate) use neon::Neon;
 pub(crate) use scalar::Scalar;
 
 /// The lanes of a vector.
@@ -51,6 +55,9 @@ pub enum Isa {
     /// x86-64 with AVX2 and FMA.
     #[cfg(target_arch = "x86_64")]
     Avx2,
+    /// 64-bit ARM with NEON, which nearly all have.
+    #[cfg(target_arch = "aarch64")]
+    Neon,
 }
 
 impl Isa {
@@ -59,6 +66,10 @@ impl Isa {
         #[cfg(target_arch = "x86_64")]
         if Avx2::detect().is_some() {
             return Self::Avx2;
+        }
+        #[cfg(target_arch = "aarch64")]
+        if Neon::detect().is_some() {
+            return Self::Neon;
         }
         Self::Scalar
     }
