@@ -23,7 +23,7 @@ test-arm:
 		set -x; \
 		CARGO_TARGET_AARCH64_UNKNOWN_LINUX_GNU_LINKER=aarch64-linux-gnu-gcc \
 		CARGO_TARGET_AARCH64_UNKNOWN_LINUX_GNU_RUNNER="qemu-aarch64 -L /usr/aarch64-linux-gnu" \
-		PROPTEST_CASES=100 EYEBEAM_RAYS=300000 \
+		PROPTEST_CASES=100 \
 		cargo test --locked -p eyebeam-bvh --target $(ARM) --lib --test memory --test properties; \
 	else \
 		echo "test-arm: SKIPPED. It needs the Debian packages gcc-aarch64-linux-gnu, libc6-dev-arm64-cross and qemu-user," \
@@ -45,7 +45,7 @@ miri:
 
 # Random bytes as shapes and rays, for five minutes (a nightly compiler and `cargo install cargo-fuzz`).
 fuzz:
-	cargo +nightly fuzz run kernel -- -max_total_time=300 -timeout=10
+	cargo +nightly fuzz run kernel -- -max_total_time=300 -timeout=10 -max_len=512 -len_control=0
 
 # Speed, and the comparison with a textbook program (docs/performance.md).
 bench:
