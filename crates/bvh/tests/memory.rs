@@ -5,8 +5,8 @@ use eyebeam_bvh::{Bvh, Isa, Primitive, Quad, Quality, Ray, Sphere, Triangle};
 use glam::Vec3;
 
 /// Tools are 30 (valgrind) to 1000 (Miri) times slower than the processor.
-const SHAPES: usize = if cfg!(miri) { 40 } else { 3000 };
-const RAYS: usize = if cfg!(miri) { 20 } else { 1500 };
+const SHAPES: usize = if cfg!(miri) { 30 } else { 3000 };
+const RAYS: usize = if cfg!(miri) { 10 } else { 1500 };
 
 /// Points that fill the cube from -1 to 1 evenly (multiples of irrational numbers).
 fn point(i: usize) -> Vec3 {
@@ -67,7 +67,7 @@ fn every_path_over_every_shape() {
 /// The stack is deepest where boxes lie within boxes, and every child is met.
 #[test]
 fn a_deep_stack() {
-    const STEPS: i32 = if cfg!(miri) { 10 } else { 60 };
+    const STEPS: i32 = if cfg!(miri) { 4 } else { 60 };
     let ball = |k: i32, i: i32, center: Vec3| {
         let radius = 0.5_f32.powi(k) * (1.0 + 0.1 * i as f32);
         Primitive::Sphere(Sphere { center: center * radius, radius })
@@ -75,7 +75,7 @@ fn a_deep_stack() {
     let sides = [Vec3::X, Vec3::NEG_Y, Vec3::Z, Vec3::ONE];
     let balls = (0..STEPS).flat_map(|k| sides.into_iter().flat_map(move |side| (0..9).map(move |i| ball(k, i, side))));
     let balls: Vec<_> = balls.collect();
-    let rays: Vec<_> = (0..RAYS / 10).map(|i| Ray::new(0.1 * point(i), point(i + 3))).collect();
+    let rays: Vec<_> = (0..RAYS.div_ceil(10)).map(|i| Ray::new(0.1 * point(i), point(i + 3))).collect();
     for quality in Quality::ALL {
         let bvh = Bvh::build(&balls, quality).unwrap();
         assert_eq!(trace(&bvh.clone().with_isa(Isa::Scalar), &rays), trace(&bvh, &rays));
