@@ -2,7 +2,7 @@
 
 EMBREE_VERSION = 4.4.0.post1
 
-.PHONY: test bench bench-kernel figures pictures schema
+.PHONY: test test-nightly test-arm memcheck miri fuzz bench bench-kernel figures pictures schema
 
 # Everything that can be checked: format, lints, tests, examples in the documentation, and that it builds.
 test:
@@ -11,6 +11,43 @@ test:
 	cargo clippy --workspace --all-targets --locked -- -D warnings
 	cargo test --workspace --locked
 	RUSTDOCFLAGS="-D warnings" cargo doc --workspace --no-deps --locked
+
+# The ray kernel at length: 10 million random rays on random scenes, 100 million at the edges of closed surfaces.
+test-nightly:
+	PROPTEST_CASES=110000 cargo test --release --locked -p eyebeam-bvh --test properties
+	EYEBEAM_RAYS=100000000 cargo test --release --locked -p eyebeam-bvh --test rays no_ray_gets_through_an_edge
+
+# The ray kernel with the instructions of ARM, on an emulated processor. Without the tools it says so and ends well.
+ARM := aarch64-unknown-linux-gnu
+test-arm:
+	@if command -v aarch64-linux-gnu-gcc >/dev/null && command -v qemu-aarch64 >/dev/null \
+		&& { ! command -v rustup >/dev/null || rustup target add $(ARM); }; then \
+		set -x; \
+		CARGO_TARGET_AARCH64_UNKNOWN_LINUX_GNU_LINKER=aarch64-linux-gnu-gcc \
+		CARGO_TARGET_AARCH64_UNKNOWN_LINUX_GNU_RUNNER="qemu-aarch64 -L /usr/aarch64-linux-gnu" \
+		PROPTEST_CASES=100 \
+		cargo test --locked -p eyebeam-bvh --target $(ARM) --lib --test memory --test properties; \
+	else \
+		echo "test-arm: SKIPPED. It needs the Debian packages gcc-aarch64-linux-gnu, libc6-dev-arm64-cross and qemu-user," \
+			"and Rust's target $(ARM)."; \
+	fi
+
+# The unsafe code of the ray kernel under valgrind: every access to memory is checked. Without valgrind it says so.
+VALGRIND := valgrind --quiet --error-exitcode=9 --leak-check=no --fair-sched=try
+memcheck:
+	@if command -v valgrind >/dev/null; then \
+		cargo test --locked -p eyebeam-bvh --test memory --config "target.'cfg(unix)'.runner='$(VALGRIND)'" -- --nocapture; \
+	else \
+		echo "memcheck: SKIPPED. It needs valgrind."; \
+	fi
+
+# The same under Miri, which knows Rust's rules, too (a nightly compiler with the component miri; minutes).
+miri:
+	MIRIFLAGS=-Zmiri-disable-isolation cargo +nightly miri test --locked -p eyebeam-bvh --test memory
+
+# Random bytes as shapes and rays, for five minutes (a nightly compiler and `cargo install cargo-fuzz`).
+fuzz:
+	cargo +nightly fuzz run kernel -- -max_total_time=300 -timeout=10 -max_len=512 -len_control=0
 
 # Speed, and the comparison with a textbook program (docs/performance.md).
 bench:

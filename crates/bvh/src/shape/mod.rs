@@ -74,8 +74,8 @@ impl Primitive {
         }
     }
 
-    /// The box around it at all times, wider by a few roundings.
-    pub(crate) fn bounds(&self, objects: &[Arc<Bvh>]) -> Aabb {
+    /// The box around it at all times, wider by a few roundings; for an instance, of what the list of objects has for it.
+    pub fn bounds(&self, objects: &[Arc<Bvh>]) -> Aabb {
         match self {
             Self::Instance(i) => objects.get(i.object as usize).map_or(Aabb::EMPTY, |object| i.bounds(object)),
             _ => self.shape_bounds().unwrap_or(Aabb::EMPTY),

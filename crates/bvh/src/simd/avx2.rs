@@ -19,7 +19,7 @@ impl Avx2 {
 /// Implements [`Simd`] for one width: the number of lanes, the type of a vector, and the prefix of its instructions.
 macro_rules! impl_simd {
     ($lanes:literal, $vector:ty, $load:ident, $store:ident, $set1:ident, $add:ident, $sub:ident, $mul:ident, $div:ident,
-     $sqrt:ident, $fmadd:ident, $fmsub:ident, $min:ident, $max:ident, $and:ident, $andnot:ident, $xor:ident, $cmp:ident,
+     $fmadd:ident, $fmsub:ident, $min:ident, $max:ident, $and:ident, $andnot:ident, $xor:ident, $cmp:ident,
      $movemask:ident) => {
         // SAFETY: of every block below: `self` proves that the processor has the instructions, and loads and stores go to
         // arrays of as many numbers as the vector has.
@@ -56,10 +56,6 @@ macro_rules! impl_simd {
             #[inline(always)]
             fn div(self, a: $vector, b: $vector) -> $vector {
                 unsafe { $div(a, b) }
-            }
-            #[inline(always)]
-            fn sqrt(self, a: $vector) -> $vector {
-                unsafe { $sqrt(a) }
             }
             #[inline(always)]
             fn mul_add(self, a: $vector, b: $vector, c: $vector) -> $vector {
@@ -107,12 +103,12 @@ macro_rules! impl_simd {
 
 impl_simd! {
     8, __m256, _mm256_loadu_ps, _mm256_storeu_ps, _mm256_set1_ps, _mm256_add_ps, _mm256_sub_ps, _mm256_mul_ps, _mm256_div_ps,
-    _mm256_sqrt_ps, _mm256_fmadd_ps, _mm256_fmsub_ps, _mm256_min_ps, _mm256_max_ps, _mm256_and_ps, _mm256_andnot_ps,
+    _mm256_fmadd_ps, _mm256_fmsub_ps, _mm256_min_ps, _mm256_max_ps, _mm256_and_ps, _mm256_andnot_ps,
     _mm256_xor_ps, _mm256_cmp_ps, _mm256_movemask_ps
 }
 impl_simd! {
     4, __m128, _mm_loadu_ps, _mm_storeu_ps, _mm_set1_ps, _mm_add_ps, _mm_sub_ps, _mm_mul_ps, _mm_div_ps,
-    _mm_sqrt_ps, _mm_fmadd_ps, _mm_fmsub_ps, _mm_min_ps, _mm_max_ps, _mm_and_ps, _mm_andnot_ps,
+    _mm_fmadd_ps, _mm_fmsub_ps, _mm_min_ps, _mm_max_ps, _mm_and_ps, _mm_andnot_ps,
     _mm_xor_ps, _mm_cmp_ps, _mm_movemask_ps
 }
 

@@ -6,10 +6,14 @@
 
 #[cfg(target_arch = "x86_64")]
 mod avx2;
+#[cfg(target_arch = "aarch64")]
+mod neon;
 mod scalar;
 
 #[cfg(target_arch = "x86_64")]
 pub(crate) use avx2::Avx2;
+#[cfg(target_arch = "aarch64")]
+pub(crate) use neon::Neon;
 pub(crate) use scalar::Scalar;
 
 /// The children of a node, and the most primitives in a leaf.
@@ -29,7 +33,6 @@ pub(crate) trait Simd<const N: usize>: Copy {
     fn sub(self, a: Self::F32, b: Self::F32) -> Self::F32;
     fn mul(self, a: Self::F32, b: Self::F32) -> Self::F32;
     fn div(self, a: Self::F32, b: Self::F32) -> Self::F32;
-    fn sqrt(self, a: Self::F32) -> Self::F32;
     /// a b + c, fused or not.
     fn mul_add(self, a: Self::F32, b: Self::F32, c: Self::F32) -> Self::F32;
     /// a b − c, fused or not.
@@ -76,6 +79,9 @@ pub enum Isa {
     /// x86-64 with AVX2 and FMA.
     #[cfg(target_arch = "x86_64")]
     Avx2,
+    /// 64-bit ARM with NEON, which nearly all have.
+    #[cfg(target_arch = "aarch64")]
+    Neon,
 }
 
 impl Isa {
@@ -84,6 +90,10 @@ impl Isa {
         #[cfg(target_arch = "x86_64")]
         if Avx2::detect().is_some() {
             return Self::Avx2;
+        }
+        #[cfg(target_arch = "aarch64")]
+        if Neon::detect().is_some() {
+            return Self::Neon;
         }
         Self::Scalar
     }
@@ -96,6 +106,12 @@ impl Isa {
         {
             return Processor::Avx2(avx2);
         }
+        #[cfg(target_arch = "aarch64")]
+        if self == Self::Neon
+            && let Some(neon) = Neon::detect()
+        {
+            return Processor::Neon(neon);
+        }
         Processor::Scalar(Scalar)
     }
 }
@@ -106,6 +122,8 @@ pub(crate) enum Processor {
     Scalar(Scalar),
     #[cfg(target_arch = "x86_64")]
     Avx2(Avx2),
+    #[cfg(target_arch = "aarch64")]
+    Neon(Neon),
 }
 
 impl Processor {
@@ -116,6 +134,8 @@ impl Processor {
             Self::Scalar(scalar) => scalar.call(task),
             #[cfg(target_arch = "x86_64")]
             Self::Avx2(avx2) => avx2.call(task),
+            #[cfg(target_arch = "aarch64")]
+            Self::Neon(neon) => neon.call(task),
         }
     }
 }

@@ -39,10 +39,6 @@ impl<const N: usize> Simd<N> for Scalar {
         std::array::from_fn(|i| a[i] / b[i])
     }
     #[inline(always)]
-    fn sqrt(self, a: [f32; N]) -> [f32; N] {
-        a.map(f32::sqrt)
-    }
-    #[inline(always)]
     fn mul_add(self, a: [f32; N], b: [f32; N], c: [f32; N]) -> [f32; N] {
         std::array::from_fn(|i| a[i] * b[i] + c[i])
     }

@@ -5,6 +5,7 @@ mod double;
 mod limits;
 mod random;
 mod reference;
+mod regressions;
 mod same_as_list;
 mod shapes;
 mod watertight;
