@@ -1,7 +1,7 @@
 //! The hierarchy.
 
 use crate::aabb::Aabb;
-use crate::build::{Quality, build};
+use crate::build::{Built, Quality, build};
 use crate::error::BuildError;
 use crate::geometry::Geometry;
 use crate::ray::{Hit, Ray};
@@ -17,6 +17,7 @@ use crate::wide::{Child, Kind, Tree};
 pub struct Bvh {
     pub(crate) tree: Tree,
     bounds: Aabb,
+    stats: Stats,
     /// The largest coordinate of `bounds`, by size.
     pub(crate) reach: f32,
     isa: Isa,
@@ -33,9 +34,9 @@ impl Bvh {
     /// # Errors
     /// Numbers that are not finite, and more than [`MAX_PRIMITIVES`](Self::MAX_PRIMITIVES) primitives.
     pub fn build(geometry: &(impl Geometry + ?Sized), quality: Quality) -> Result<Self, BuildError> {
-        let (tree, bounds) = build(geometry, quality)?;
-        let reach = if geometry.is_empty() { 0.0 } else { bounds.lo.abs().max(bounds.hi.abs()).max_element() };
-        Ok(Self { tree, bounds, reach, isa: Isa::detect(), is_list: false })
+        let Built { tree, bounds, stats } = build(geometry, quality)?;
+        let reach = if stats.primitives == 0 { 0.0 } else { bounds.lo.abs().max(bounds.hi.abs()).max_element() };
+        Ok(Self { tree, bounds, stats, reach, isa: Isa::detect(), is_list: false })
     }
 
     /// As [`build`](Self::build), but every ray tests every primitive: the same hits in time O(n), for comparison.
@@ -99,17 +100,7 @@ impl Bvh {
 
     /// What the tree is made of.
     pub fn stats(&self) -> Stats {
-        let tree = &self.tree;
-        let blocks = tree.triangles.len() + tree.quads.len() + tree.spheres.len();
-        Stats {
-            nodes: tree.nodes.len(),
-            leaves: blocks,
-            bytes: size_of_val(tree.nodes.as_slice())
-                + size_of_val(tree.triangles.as_slice())
-                + size_of_val(tree.quads.as_slice())
-                + size_of_val(tree.spheres.as_slice()),
-            ..Stats::default()
-        }
+        self.stats
     }
 
     fn intersect_all(&self, ray: &Ray) -> Option<Hit> {

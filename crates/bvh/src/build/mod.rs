@@ -1,31 +1,58 @@
 //! From primitives to the tree that rays walk: a binary tree, whose subtrees become nodes of eight and leaves of eight.
 
 mod binary;
-mod collapse;
+mod bins;
+mod bounds;
+mod chunks;
+mod emit;
+mod item;
+mod plan;
 mod quality;
 mod sah;
 
 use crate::aabb::Aabb;
 use crate::error::BuildError;
 use crate::geometry::Geometry;
+use crate::simd::LANES;
+use crate::stats::Stats;
 use crate::wide::{Child, Tree};
+
+use item::Items;
 
 pub use quality::Quality;
 
 /// No path of the binary tree is longer; the stack of a walk is sized by it.
 pub(crate) const MAX_DEPTH: usize = 64;
 
-/// A tree over the primitives, and the box around them.
-pub(crate) fn build(geometry: &(impl Geometry + ?Sized), _quality: Quality) -> Result<(Tree, Aabb), BuildError> {
+/// What a build makes.
+pub(crate) struct Built {
+    pub(crate) tree: Tree,
+    /// The box around everything that can be hit.
+    pub(crate) bounds: Aabb,
+    pub(crate) stats: Stats,
+}
+
+/// A tree over the primitives.
+pub(crate) fn build(geometry: &(impl Geometry + ?Sized), quality: Quality) -> Result<Built, BuildError> {
     let (count, most) = (geometry.len(), Child::MAX_BLOCKS);
     if count > most {
         return Err(BuildError::TooMany { count, most });
     }
-    let primitives: Vec<_> = (0..count).map(|i| geometry.primitive(i)).collect();
-    let binary = sah::build(&primitives);
-    Ok((collapse::collapse(&binary, &primitives), binary.bounds()))
+    let Items { mut list, bounds, degenerate } = Items::new(geometry)?;
+    let stats = Stats { primitives: list.len(), degenerate, ..Stats::default() };
+    if list.is_empty() {
+        return Ok(Built { tree: Tree::empty(), bounds: Aabb::EMPTY, stats });
+    }
+    let forest = match quality {
+        Quality::Fast | Quality::Balanced | Quality::Best => sah::build(&mut list, bounds, 0),
+    };
+    let (tree, references) = emit::emit(&forest, geometry);
+    let bounds = bounds.into();
+    let (nodes, leaves) = (tree.nodes.len(), tree.leaves());
+    let fill = references as f32 / (leaves * LANES) as f32;
+    let sah_cost = 0.0;
+    Ok(Built { stats: Stats { nodes, leaves, references, fill, sah_cost, bytes: tree.bytes(), ..stats }, tree, bounds })
 }
-
 #[cfg(test)]
 mod tests {
     use glam::Vec3;
@@ -53,7 +80,7 @@ mod tests {
             }
         }
         let prims: Vec<_> = balls.into_iter().map(Primitive::Sphere).collect();
-        let (tree, _) = build(&prims, Quality::Balanced).unwrap();
+        let Built { tree, .. } = build(&prims, Quality::Balanced).unwrap();
         assert!(depth(&tree, tree.root) <= MAX_DEPTH);
         let lanes = (0..tree.spheres.len()).flat_map(|block| (0..LANES).map(move |lane| (block, lane)));
         let in_use = lanes.filter(|&(block, lane)| tree.spheres[block].used >> lane & 1 == 1);

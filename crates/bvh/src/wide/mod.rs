@@ -2,11 +2,14 @@
 
 mod block;
 mod node;
+mod room;
 
 pub(crate) use block::{CornerBlock, SphereBlock};
 pub(crate) use node::{Child, Kind, Node, Target};
+pub(crate) use room::{Plain, Room, Sizes, zeroed};
 
 use crate::shape::{Primitive, Quad, Triangle};
+use crate::wide::room::Places;
 
 /// Everything that a walk reads.
 #[derive(Clone, Debug)]
@@ -24,15 +27,38 @@ impl Tree {
         Self { root: Child::NONE, nodes: Vec::new(), triangles: Vec::new(), quads: Vec::new(), spheres: Vec::new() }
     }
 
-    /// Appends a leaf of primitives of one kind, eight at most, in a box whose longest side is `size`.
-    pub(crate) fn push_leaf(&mut self, primitives: impl Iterator<Item = (u32, Primitive)> + Clone, size: f32) -> Child {
-        let kind = primitives.clone().next().map_or(Kind::Sphere, |(_, p)| Kind::of(&p));
-        let index = match kind {
-            Kind::Triangle => push(&mut self.triangles, CornerBlock::new(primitives, size)),
-            Kind::Quad => push(&mut self.quads, CornerBlock::new(primitives, size)),
-            Kind::Sphere => push(&mut self.spheres, SphereBlock::new(primitives)),
-        };
-        Child::leaf(kind, index)
+    /// A tree of known size, yet to be written.
+    pub(crate) fn with_sizes(sizes: Sizes) -> Self {
+        Self {
+            root: Child::NONE,
+            nodes: zeroed(sizes.nodes),
+            triangles: zeroed(sizes.triangles),
+            quads: zeroed(sizes.quads),
+            spheres: zeroed(sizes.spheres),
+        }
+    }
+
+    /// All of its places.
+    pub(crate) fn room(&mut self) -> Room<'_> {
+        Room {
+            nodes: Places::new(&mut self.nodes),
+            triangles: Places::new(&mut self.triangles),
+            quads: Places::new(&mut self.quads),
+            spheres: Places::new(&mut self.spheres),
+        }
+    }
+
+    /// The number of leaves.
+    pub(crate) fn leaves(&self) -> usize {
+        self.triangles.len() + self.quads.len() + self.spheres.len()
+    }
+
+    /// The memory that it takes.
+    pub(crate) fn bytes(&self) -> usize {
+        size_of_val(self.nodes.as_slice())
+            + size_of_val(self.triangles.as_slice())
+            + size_of_val(self.quads.as_slice())
+            + size_of_val(self.spheres.as_slice())
     }
 
     /// The primitive in a lane of a block.
@@ -60,9 +86,4 @@ impl Tree {
             Kind::Sphere => self.spheres[block].id[lane],
         }
     }
-}
-
-fn push<T>(list: &mut Vec<T>, item: T) -> usize {
-    list.push(item);
-    list.len() - 1
 }
