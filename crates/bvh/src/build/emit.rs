@@ -3,11 +3,15 @@
 //! The nodes above subtrees are written first, by one thread. What each subtree takes is counted, so that threads can
 //! write subtrees to places known beforehand.
 
+use std::ops::Range;
+
 use rayon::prelude::*;
 
 use crate::aabb::Aabb;
 use crate::build::binary::{Forest, Node as Binary, Subtree, children, show};
+use crate::build::item::Item;
 use crate::geometry::Geometry;
+use crate::shape::Primitive;
 use crate::simd::LANES;
 use crate::wide::{Child, Node, Room, Sizes, Tree};
 
@@ -92,7 +96,10 @@ impl Job {
     }
 
     fn write(&self, forest: &Forest, geometry: &(impl Geometry + ?Sized), room: Room) -> (Vec<Child>, usize) {
-        let mut writer = Writer { subtree: &forest.subtrees[self.subtree], geometry, room, references: 0 };
+        let subtree = &forest.subtrees[self.subtree];
+        // All at once, so that the processor waits for many of them at a time.
+        let primitives = subtree.items.iter().map(|item| geometry.primitive(item.prim() as usize)).collect();
+        let mut writer = Writer { subtree, primitives, room, references: 0 };
         (self.entries.iter().map(|&entry| writer.write(entry)).collect(), writer.references)
     }
 }
@@ -109,34 +116,35 @@ impl Subtree<'_> {
 
     /// What it takes in the tree that rays walk.
     fn sizes(&self, index: usize) -> Sizes {
-        let node = &self.nodes[index];
-        if node.choices.is_leaf() {
-            return Sizes::leaf(self.items[node.first as usize].kind(), self.count(index));
+        if self.nodes[index].choices.is_leaf() {
+            let items = &self.items[self.leaf(index)];
+            return Sizes::leaf(items[0].kind(), distinct(items).count());
         }
         let mut sizes = Sizes::nodes(1);
         self.lanes(index, |index| sizes = sizes + self.sizes(index));
         sizes
     }
 
-    /// The number of items below a node.
-    fn count(&self, mut index: usize) -> usize {
-        let first = self.nodes[index].first;
+    /// The items below a node.
+    fn leaf(&self, mut index: usize) -> Range<usize> {
+        let first = self.nodes[index].first as usize;
         while let Some([_, right]) = children(&self.nodes, index) {
             index = right;
         }
         let last: &Binary = &self.nodes[index];
-        (last.first + last.count - first) as usize
+        first..(last.first + last.count) as usize
     }
 }
 
-struct Writer<'a, G: ?Sized> {
+struct Writer<'a> {
     subtree: &'a Subtree<'a>,
-    geometry: &'a G,
+    /// Of the subtree's items.
+    primitives: Vec<Primitive>,
     room: Room<'a>,
     references: usize,
 }
 
-impl<G: Geometry + ?Sized> Writer<'_, G> {
+impl Writer<'_> {
     /// Writes a part of the subtree; parents come first.
     fn write(&mut self, index: usize) -> Child {
         if self.subtree.nodes[index].choices.is_leaf() {
@@ -157,21 +165,16 @@ impl<G: Geometry + ?Sized> Writer<'_, G> {
     }
 
     fn write_leaf(&mut self, index: usize) -> Child {
-        let first = self.subtree.nodes[index].first as usize;
-        let items = &self.subtree.items[first..first + self.subtree.count(index)];
-        let (mut primitives, mut count, mut bounds) = ([None; LANES], 0, Aabb::EMPTY);
-        for item in items {
-            let id = item.prim();
-            // Parts of one primitive may have come together again.
-            if primitives[..count].iter().flatten().all(|&(other, _)| other != id) {
-                let primitive = self.geometry.primitive(id as usize);
-                bounds = bounds.union(primitive.bounds());
-                primitives[count] = Some((id, primitive));
-                count += 1;
-            }
-        }
-        self.references += count;
-        let size = (bounds.hi - bounds.lo).max_element().next_up();
-        self.room.push_leaf(primitives[..count].iter().flatten().copied(), size)
+        let range = self.subtree.leaf(index);
+        let items = &self.subtree.items[range.clone()];
+        let primitives = distinct(items).map(|i| (items[i].prim(), self.primitives[range.start + i]));
+        let bounds = primitives.clone().fold(Aabb::EMPTY, |b, (_, primitive)| b.union(primitive.bounds()));
+        self.references += primitives.clone().count();
+        self.room.push_leaf(primitives, (bounds.hi - bounds.lo).max_element().next_up())
     }
+}
+
+/// The indices of items, without further parts of the same primitive: they may have come together again.
+fn distinct(items: &[Item]) -> impl Iterator<Item = usize> + Clone {
+    (0..items.len()).filter(|&i| items[..i].iter().all(|other| other.prim() != items[i].prim()))
 }

@@ -4,11 +4,13 @@ mod binary;
 mod bins;
 mod bounds;
 mod chunks;
+mod clip;
 mod emit;
 mod item;
 mod plan;
 mod quality;
 mod sah;
+mod spatial;
 
 use crate::aabb::Aabb;
 use crate::error::BuildError;
@@ -38,15 +40,26 @@ pub(crate) fn build(geometry: &(impl Geometry + ?Sized), quality: Quality) -> Re
     if count > most {
         return Err(BuildError::TooMany { count, most });
     }
+    let t0 = std::time::Instant::now();
     let Items { mut list, bounds, degenerate } = Items::new(geometry)?;
     let stats = Stats { primitives: list.len(), degenerate, ..Stats::default() };
     if list.is_empty() {
         return Ok(Built { tree: Tree::empty(), bounds: Aabb::EMPTY, stats });
     }
+    let t1 = std::time::Instant::now();
     let forest = match quality {
-        Quality::Fast | Quality::Balanced | Quality::Best => sah::build(&mut list, bounds, 0),
+        Quality::Fast | Quality::Balanced => sah::build(&mut list, bounds, 0),
+        Quality::Best => spatial::build(geometry, list, bounds),
     };
+    let t2 = std::time::Instant::now();
     let (tree, references) = emit::emit(&forest, geometry);
+    eprintln!(
+        "items {:.3} tree {:.3} emit {:.3} subtrees {}",
+        (t1 - t0).as_secs_f64(),
+        (t2 - t1).as_secs_f64(),
+        t2.elapsed().as_secs_f64(),
+        forest.subtrees.len()
+    );
     let bounds = bounds.into();
     let (nodes, leaves) = (tree.nodes.len(), tree.leaves());
     let fill = references as f32 / (leaves * LANES) as f32;

@@ -16,7 +16,7 @@ use crate::build::plan::Plan;
 /// The most items in a subtree, which is one thread's work.
 pub(super) const SUBTREE: usize = 1 << 12;
 /// So few items are not split, if they are of one kind: the heuristic has no use for more leaves.
-const SMALL: usize = 4;
+pub(super) const SMALL: usize = 8;
 
 /// The tree of items, which are reordered.
 pub(super) fn build(items: &mut [Item], bounds: Bounds, depth: usize) -> Forest<'_> {
@@ -37,7 +37,7 @@ fn subtree(items: &mut [Item], bounds: Bounds, depth: usize) -> Forest<'_> {
 }
 
 /// Appends the tree of items, of which the first is number `first` of the subtree.
-fn branch(nodes: &mut Vec<Node>, items: &mut [Item], first: usize, bounds: Bounds, depth: usize) -> Plan {
+pub(super) fn branch(nodes: &mut Vec<Node>, items: &mut [Item], first: usize, bounds: Bounds, depth: usize) -> Plan {
     let index = nodes.len();
     let kind = items[0].kind();
     let is_small = items.len() <= SMALL.min(kind.leaf_size());
@@ -78,7 +78,7 @@ fn split_in_bins<const N: usize>(items: &mut [Item], centers: Bounds) -> Option<
 }
 
 /// The fallback: halves by the order of centres along the longest axis; always makes progress.
-fn halve(items: &mut [Item], centers: Bounds) -> (usize, [Bounds; 2]) {
+pub(super) fn halve(items: &mut [Item], centers: Bounds) -> (usize, [Bounds; 2]) {
     let axis = (centers.hi - centers.lo).max_position();
     let middle = items.len() / 2;
     let key = |item: &Item| item.center_on(axis);
