@@ -7,6 +7,7 @@ mod chunks;
 mod clip;
 mod emit;
 mod item;
+mod morton;
 mod plan;
 mod quality;
 mod sah;
@@ -48,7 +49,8 @@ pub(crate) fn build(geometry: &(impl Geometry + ?Sized), quality: Quality) -> Re
     }
     let t1 = std::time::Instant::now();
     let forest = match quality {
-        Quality::Fast | Quality::Balanced => sah::build(&mut list, bounds, 0),
+        Quality::Fast => morton::build(list),
+        Quality::Balanced => sah::build(&mut list, bounds, 0),
         Quality::Best => spatial::build(geometry, list, bounds),
     };
     let t2 = std::time::Instant::now();

@@ -6,6 +6,7 @@
 
 use std::borrow::Cow;
 
+use glam::Vec3A;
 use rayon::prelude::*;
 
 use crate::build::MAX_DEPTH;
@@ -156,30 +157,28 @@ impl<G: Geometry + ?Sized> Builder<'_, G> {
         best
     }
 
-    /// Cuts items at all borders of bins.
+    /// Cuts the boxes of items at all borders of bins: what is left of the items themselves would take too long to find out.
     fn bins(&self, items: &[Item], bounds: Bounds) -> Bins {
         let mut bins = Bins::default();
         let extent = bounds.hi - bounds.lo;
         let scale = extent.recip() * BINS as f32;
+        let borders: [Vec3A; BINS + 1] = std::array::from_fn(|bin| bounds.lo + extent * (bin as f32 / BINS as f32));
         for item in items {
             let part = item.bounds();
             let [first, last] = [part.lo, part.hi].map(|p| ((p - bounds.lo) * scale).to_array());
-            let mut primitive = None;
             for axis in 0..3 {
                 let [first, last] = [first[axis], last[axis]].map(|x| (x as usize).min(BINS - 1));
                 bins.enter[axis][first] += 1;
                 bins.leave[axis][last] += 1;
-                let mut rest = part;
-                for bin in first..last {
-                    let primitive = primitive.get_or_insert_with(|| self.geometry.primitive(item.prim() as usize));
-                    let [low, high] = clip(primitive, rest, axis, border(bounds, axis, bin + 1));
-                    if !low.is_empty() {
-                        bins.bounds[axis][bin] = bins.bounds[axis][bin].union(low);
+                for bin in first..=last {
+                    let mut slice = part;
+                    if bin > first {
+                        slice.lo[axis] = borders[bin][axis];
                     }
-                    rest = high;
-                }
-                if !rest.is_empty() {
-                    bins.bounds[axis][last] = bins.bounds[axis][last].union(rest);
+                    if bin < last {
+                        slice.hi[axis] = borders[bin + 1][axis];
+                    }
+                    bins.bounds[axis][bin] = bins.bounds[axis][bin].union(slice);
                 }
             }
         }
