@@ -1,7 +1,7 @@
 //! The hierarchy.
 
 use crate::aabb::Aabb;
-use crate::build::{Built, Quality, build};
+use crate::build::{Built, Quality, build, refit};
 use crate::error::BuildError;
 use crate::geometry::Geometry;
 use crate::ray::{Hit, Ray};
@@ -34,9 +34,28 @@ impl Bvh {
     /// # Errors
     /// Numbers that are not finite, and more than [`MAX_PRIMITIVES`](Self::MAX_PRIMITIVES) primitives.
     pub fn build(geometry: &(impl Geometry + ?Sized), quality: Quality) -> Result<Self, BuildError> {
-        let Built { tree, bounds, stats } = build(geometry, quality)?;
+        Ok(Self::new(build(geometry, quality)?))
+    }
+
+    fn new(built: Built) -> Self {
+        let Built { tree, bounds, stats } = built;
         let reach = if stats.primitives == 0 { 0.0 } else { bounds.lo.abs().max(bounds.hi.abs()).max_element() };
-        Ok(Self { tree, bounds, stats, reach, isa: Isa::detect(), is_list: false })
+        Self { tree, bounds, stats, reach, isa: Isa::detect(), is_list: false }
+    }
+
+    /// Moves the primitives to where `geometry` has them now, in O(n); the hits are those of a new tree. The more they move
+    /// relative to one another, the slower rays become. If there is another number of them, or some have become degenerate
+    /// or another shape, the tree is built anew.
+    ///
+    /// # Errors
+    /// As for [`build`](Self::build); the tree is as it was then.
+    pub fn refit(&mut self, geometry: &(impl Geometry + ?Sized)) -> Result<(), BuildError> {
+        let built = match refit(self.tree.clone(), self.stats, geometry)? {
+            Some(built) => built,
+            None => build(geometry, Quality::Balanced)?,
+        };
+        *self = Self { isa: self.isa, is_list: self.is_list, ..Self::new(built) };
+        Ok(())
     }
 
     /// As [`build`](Self::build), but every ray tests every primitive: the same hits in time O(n), for comparison.

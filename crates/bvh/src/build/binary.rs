@@ -65,7 +65,7 @@ pub(super) struct Subtree<'a> {
 pub(super) struct Forest<'a> {
     pub(super) top: Vec<Node>,
     pub(super) subtrees: Vec<Subtree<'a>>,
-    plan: Plan,
+    pub(super) plan: Plan,
 }
 
 impl<'a> Forest<'a> {

@@ -48,10 +48,6 @@ impl Bounds {
     pub(super) fn center(self) -> Vec3A {
         self.lo + self.hi
     }
-
-    pub(super) fn longest_side(self) -> f32 {
-        (self.hi - self.lo).max_element().next_up()
-    }
 }
 
 impl From<Aabb> for Bounds {

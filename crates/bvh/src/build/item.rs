@@ -3,7 +3,6 @@
 use glam::{DVec3, Vec3, Vec3A, Vec4};
 use rayon::prelude::*;
 
-use crate::aabb::Aabb;
 use crate::build::bounds::Bounds;
 use crate::error::BuildError;
 use crate::geometry::Geometry;
@@ -118,7 +117,7 @@ fn fill(geometry: &(impl Geometry + ?Sized), first: usize, places: &mut [Item]) 
     chunk
 }
 
-fn is_finite(primitive: &Primitive) -> bool {
+pub(super) fn is_finite(primitive: &Primitive) -> bool {
     let all = |points: [Vec3; 3]| points.into_iter().all(Vec3::is_finite);
     match primitive {
         Primitive::Sphere(s) => s.center.is_finite() && s.radius.is_finite(),
@@ -128,7 +127,7 @@ fn is_finite(primitive: &Primitive) -> bool {
 }
 
 /// Whether there is nothing to hit: no radius, or no area in double precision.
-pub(crate) fn is_degenerate(primitive: &Primitive) -> bool {
+pub(super) fn is_degenerate(primitive: &Primitive) -> bool {
     match primitive {
         Primitive::Sphere(s) => s.radius <= 0.0,
         Primitive::Quad(q) => q.u.as_dvec3().cross(q.v.as_dvec3()) == DVec3::ZERO,
@@ -136,11 +135,5 @@ pub(crate) fn is_degenerate(primitive: &Primitive) -> bool {
             let [a, b, c] = [t.a, t.b, t.c].map(Vec3::as_dvec3);
             (b - a).cross(c - a) == DVec3::ZERO
         }
-    }
-}
-
-impl From<Item> for Aabb {
-    fn from(item: Item) -> Self {
-        item.bounds().into()
     }
 }

@@ -123,7 +123,7 @@ impl<G: Geometry + ?Sized> Builder<'_, G> {
         if budget == 0 || overlap <= self.least_overlap {
             return None;
         }
-        let cut = self.best_cut(items, bounds).filter(|cut| cut.cost < GAIN * cost && cut.added <= budget)?;
+        let cut = self.best_cut(items, bounds, budget).filter(|cut| cut.cost < GAIN * cost)?;
         let parts: Vec<_> = items.par_chunks(CHUNK).map(|chunk| self.divide(chunk, &cut)).collect();
         let mut sides = Vec::with_capacity(items.len() + cut.added);
         parts.iter().for_each(|[_, right]| sides.extend_from_slice(right));
@@ -138,19 +138,16 @@ impl<G: Geometry + ?Sized> Builder<'_, G> {
         Some(Sides { items: sides, right, bounds, budget: share(rest, [left, right]) })
     }
 
-    fn best_cut(&self, items: &[Item], bounds: Bounds) -> Option<Cut> {
+    fn best_cut(&self, items: &[Item], bounds: Bounds, budget: usize) -> Option<Cut> {
         let parts: Vec<_> = items.par_chunks(CHUNK).map(|chunk| self.bins(chunk, bounds)).collect();
         let mut bins = Bins::default();
         parts.iter().for_each(|part| bins.merge(part));
         let mut best: Option<Cut> = None;
         for axis in 0..3 {
             bins.sweep(axis, |bin, cut| {
-                if best.as_ref().is_none_or(|best| cut.cost < best.cost) {
-                    best = Some(Cut {
-                        at: border(bounds, axis, bin),
-                        added: cut.added.saturating_sub(items.len()),
-                        ..cut
-                    });
+                let added = (cut.counts[0] + cut.counts[1]) as usize - items.len();
+                if added <= budget && best.as_ref().is_none_or(|best| cut.cost < best.cost) {
+                    best = Some(Cut { at: border(bounds, axis, bin), added, ..cut });
                 }
             });
         }
@@ -290,7 +287,7 @@ impl Bins {
             if left.1 > 0 && right.1 > 0 {
                 let cost = left.0.half_area() * left.1 as f32 + right.0.half_area() * right.1 as f32;
                 let (bounds, counts) = ([left.0, right.0], [left.1, right.1]);
-                found(bin, Cut { axis, at: 0.0, cost, bounds, counts, added: (left.1 + right.1) as usize });
+                found(bin, Cut { axis, at: 0.0, cost, bounds, counts, added: 0 });
             }
         }
     }

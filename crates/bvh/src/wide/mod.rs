@@ -2,6 +2,7 @@
 
 mod block;
 mod node;
+mod replace;
 mod room;
 
 pub(crate) use block::{CornerBlock, SphereBlock};
@@ -51,6 +52,16 @@ impl Tree {
     /// The number of leaves.
     pub(crate) fn leaves(&self) -> usize {
         self.triangles.len() + self.quads.len() + self.spheres.len()
+    }
+
+    /// The number of primitives in a block.
+    pub(crate) fn count(&self, kind: Kind, block: usize) -> usize {
+        let used = match kind {
+            Kind::Triangle => self.triangles[block].used,
+            Kind::Quad => self.quads[block].used,
+            Kind::Sphere => self.spheres[block].used,
+        };
+        used.count_ones() as usize
     }
 
     /// The memory that it takes.

@@ -1,5 +1,7 @@
 //! Nodes and the references that they hold.
 
+use glam::Vec3;
+
 use crate::aabb::Aabb;
 use crate::shape::Primitive;
 use crate::simd::LANES;
@@ -97,5 +99,11 @@ impl Node {
         let hi = [0, 1, 2].map(|axis| std::array::from_fn(|lane| bounds(lane).hi[axis]));
         let child = std::array::from_fn(|lane| children.get(lane).map_or(Child::NONE, |c| c.0));
         Self { planes: [lo, hi], child }
+    }
+
+    /// The box of a lane's child.
+    pub(crate) fn bounds(&self, lane: usize) -> Aabb {
+        let [lo, hi] = self.planes.map(|planes| Vec3::from_array(planes.map(|plane| plane[lane])));
+        Aabb { lo, hi }
     }
 }
