@@ -69,10 +69,9 @@ impl<const N: usize> Bins<N> {
         for item in items {
             let bounds = item.bounds();
             let at = grid.bins(bounds.center());
-            for axis in 0..3 {
-                let bin = &mut bins.bounds[axis][at[axis]];
-                *bin = bin.union(bounds);
-                bins.counts[axis][at[axis]] += 1;
+            for (axis, bin) in at.into_iter().enumerate() {
+                bins.bounds[axis][bin] = bins.bounds[axis][bin].union(bounds);
+                bins.counts[axis][bin] += 1;
             }
         }
         bins

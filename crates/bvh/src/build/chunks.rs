@@ -60,8 +60,7 @@ fn partition_serially(items: &mut [Item], goes_left: &impl Fn(Item) -> bool) -> 
     let mut left = 0;
     for i in 0..items.len() {
         let item = items[i];
-        items[i] = items[left];
-        items[left] = item;
+        items.swap(left, i);
         left += usize::from(goes_left(item));
     }
     left

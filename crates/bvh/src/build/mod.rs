@@ -62,6 +62,7 @@ pub(crate) fn build(geometry: &(impl Geometry + ?Sized), quality: Quality) -> Re
     let fill = references as f32 / (leaves * LANES) as f32;
     Ok(Built { stats: Stats { nodes, leaves, references, fill, sah_cost, bytes: tree.bytes(), ..stats }, tree, bounds })
 }
+
 #[cfg(test)]
 mod tests {
     use glam::Vec3;

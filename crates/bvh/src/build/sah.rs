@@ -64,8 +64,8 @@ fn split(items: &mut [Item], depth: usize) -> (usize, [Bounds; 2]) {
     let centers = chunks::centers(items);
     let split = match items.len() {
         _ if depth + levels_needed >= MAX_DEPTH => None,
-        0..=16 => split_in_bins::<8>(items, centers),
-        17..=64 => split_in_bins::<16>(items, centers),
+        0..=32 => split_in_bins::<8>(items, centers),
+        33..=1024 => split_in_bins::<16>(items, centers),
         _ => split_in_bins::<32>(items, centers),
     };
     split.unwrap_or_else(|| halve(items, centers))

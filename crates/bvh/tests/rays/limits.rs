@@ -111,9 +111,9 @@ fn the_first_primitive_that_is_not_finite_is_named() {
     for count in [1, 100, 100_000] {
         let mut shapes: Vec<_> = (0..count).map(|_| r.shape(Vec3::ZERO, 1.0)).collect();
         let index = r.below(count);
-        for at in index..count {
+        for (at, shape) in shapes.iter_mut().enumerate().skip(index) {
             if at == index || r.below(100) == 0 {
-                shapes[at] = loop {
+                *shape = loop {
                     let shape = any_shape(&mut r, &ODD);
                     if format!("{shape:?}").contains("NaN") || format!("{shape:?}").contains("inf") {
                         break shape;
