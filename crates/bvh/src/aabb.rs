@@ -20,7 +20,9 @@ impl Aabb {
     pub(crate) fn around(points: impl IntoIterator<Item = DVec3>) -> Self {
         /// Times the inverse of the smallest direction, this is longer than any ray.
         const LEAST: f32 = 1e-18;
-        points.into_iter().map(DVec3::as_vec3).fold(Self::EMPTY, |b, p| {
+        points.into_iter().fold(Self::EMPTY, |b, p| {
+            // With its margin, what is out of single precision's reach is infinite.
+            let p = p.as_vec3().max(Vec3::MIN).min(Vec3::MAX);
             let margin = p.abs() * (2.0 * f32::EPSILON) + LEAST;
             b.union(Self { lo: p - margin, hi: p + margin })
         })

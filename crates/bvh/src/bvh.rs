@@ -3,7 +3,7 @@
 use glam::{DAffine3, DVec3};
 
 use crate::aabb::Aabb;
-use crate::build::{Quality, build};
+use crate::build::{Built, Quality, build, refit};
 use crate::error::BuildError;
 use crate::geometry::Geometry;
 use crate::instance::Instance;
@@ -20,6 +20,9 @@ use crate::wide::{Child, Tree};
 pub struct Bvh {
     pub(crate) tree: Tree,
     bounds: Aabb,
+    stats: Stats,
+    /// Instances within each other.
+    nesting: usize,
     /// The largest coordinate of `bounds`, by size.
     pub(crate) reach: f32,
     pub(crate) cpu: Processor,
@@ -34,11 +37,32 @@ impl Bvh {
     /// Builds the tree, in O(n log n).
     ///
     /// # Errors
-    /// Numbers that are not finite, and more than [`MAX_PRIMITIVES`](Self::MAX_PRIMITIVES) primitives.
+    /// Numbers that are not finite, more than [`MAX_PRIMITIVES`](Self::MAX_PRIMITIVES) primitives, instances of what is not
+    /// in the list of objects, and more than [`Hit::MAX_NESTING`] instances within each other.
     pub fn build(geometry: &(impl Geometry + ?Sized), quality: Quality) -> Result<Self, BuildError> {
-        let (tree, bounds) = build(geometry, quality)?;
-        let reach = if bounds.lo.x > bounds.hi.x { 0.0 } else { bounds.lo.abs().max(bounds.hi.abs()).max_element() };
-        Ok(Self { tree, bounds, reach, cpu: Isa::detect().processor(), is_list: false })
+        Ok(Self::new(build(geometry, quality)?))
+    }
+
+    fn new(built: Built) -> Self {
+        let Built { tree, bounds, stats } = built;
+        let reach = if stats.primitives == 0 { 0.0 } else { bounds.lo.abs().max(bounds.hi.abs()).max_element() };
+        let nesting = tree.objects.iter().map(|object| object.nesting + 1).max().unwrap_or(0);
+        Self { tree, bounds, stats, nesting, reach, cpu: Isa::detect().processor(), is_list: false }
+    }
+
+    /// Moves the primitives to where `geometry` has them now, in O(n); the hits are those of a new tree. The more they move
+    /// relative to one another, the slower rays become. If there is another number of them, or some have become degenerate
+    /// or another shape, the tree is built anew.
+    ///
+    /// # Errors
+    /// As for [`build`](Self::build); the tree is as it was then.
+    pub fn refit(&mut self, geometry: &(impl Geometry + ?Sized)) -> Result<(), BuildError> {
+        let built = match refit(self.tree.clone(), self.stats, geometry)? {
+            Some(built) => built,
+            None => build(geometry, Quality::Balanced)?,
+        };
+        *self = Self { cpu: self.cpu, is_list: self.is_list, ..Self::new(built) };
+        Ok(())
     }
 
     /// As [`build`](Self::build), but every ray tests every primitive: the same hits in time O(n), for comparison.
@@ -52,6 +76,11 @@ impl Bvh {
     /// The same tree, walked with other instructions: the same hits, for comparison. What the processor lacks is not used.
     pub fn with_isa(self, isa: Isa) -> Self {
         Self { cpu: isa.processor(), ..self }
+    }
+
+    /// The most instances within each other, 0 without any.
+    pub(crate) fn nesting(&self) -> usize {
+        self.nesting
     }
 
     /// The box around everything; empty if there is nothing.
@@ -82,7 +111,7 @@ impl Bvh {
     fn instances(&self, hit: &Hit) -> impl Iterator<Item = (Instance, &Self)> {
         let indices = hit.instances.into_iter().take_while(|&index| index != Hit::NO_INSTANCE);
         indices.scan(self, |outer, index| {
-            let instance = outer.tree.instance(outer.tree.block_of_instance(index)?);
+            let instance = outer.tree.instances.get(outer.tree.block_of_instance(index)?)?.instance;
             *outer = outer.tree.objects.get(instance.object as usize)?;
             Some((instance, *outer))
         })
@@ -148,7 +177,6 @@ impl Bvh {
 
     /// What the tree is made of.
     pub fn stats(&self) -> Stats {
-        let tree = &self.tree;
-        Stats { nodes: tree.nodes.len(), bytes: tree.bytes(), ..Stats::default() }
+        self.stats
     }
 }

@@ -18,4 +18,22 @@ pub enum BuildError {
         /// How many there may be.
         most: usize,
     },
+    /// An instance shows an object that is not in the list.
+    #[error("instance {index} shows object {object}, and there are {count}")]
+    NoObject {
+        /// The instance.
+        index: usize,
+        /// The object that it names.
+        object: u32,
+        /// How many there are.
+        count: usize,
+    },
+    /// Instances lie too deep within each other.
+    #[error("instance {index} is one too many within each other: at most {most} are possible")]
+    TooDeep {
+        /// The outermost instance.
+        index: usize,
+        /// The most instances within each other.
+        most: usize,
+    },
 }

@@ -28,10 +28,6 @@ impl Affine {
         Self { axes: Vec3::AXES, offset }
     }
 
-    pub(crate) fn is_finite(&self) -> bool {
-        self.offset.is_finite() && self.axes.iter().all(|axis| axis.is_finite())
-    }
-
     fn as_daffine3(&self) -> DAffine3 {
         let [x, y, z] = self.axes.map(|axis| axis.as_dvec3());
         DAffine3 { matrix3: DMat3::from_cols(x, y, z), translation: self.offset.as_dvec3() }
@@ -71,12 +67,19 @@ impl Instance {
         Some(DAffine3 { matrix3, translation: from.translation.lerp(to.translation, share) })
     }
 
+    pub(crate) fn is_finite(&self) -> bool {
+        let [from, to] = self.at;
+        let is_at_rest = from == to && !self.time.into_iter().any(f32::is_nan);
+        [from, to].iter().all(|at| at.offset.is_finite() && at.axes.into_iter().all(Vec3::is_finite))
+            && (is_at_rest || self.time.into_iter().all(f32::is_finite))
+    }
+
     /// Whether it shows nothing: at the beginning or at the end, the transform flattens the object or cannot be undone.
     pub(crate) fn is_degenerate(&self) -> bool {
         self.at.iter().any(|at| {
             let determinant = at.as_daffine3().matrix3.determinant();
             !determinant.recip().is_finite()
-        })
+        }) || self.time[0] > self.time[1]
     }
 
     /// The box around the object at all times: points move on straight lines, so two times tell.

@@ -31,6 +31,7 @@ mod shape;
 mod simd;
 mod stats;
 mod traverse;
+mod validate;
 mod wide;
 
 pub use aabb::Aabb;

@@ -1,96 +1,88 @@
-//! The binary tree that builders make.
+//! The binary tree that builders make: subtrees of some thousand items, and above them a tree whose leaves are subtrees.
 
-use std::sync::Arc;
+use std::borrow::Cow;
 
-use glam::Vec3A;
+use glam::Vec3;
 
-use crate::aabb::Aabb;
-use crate::bvh::Bvh;
-use crate::shape::Primitive;
+use crate::build::bounds::Bounds;
+use crate::build::item::Item;
+use crate::build::plan::{Choices, Plan};
 
-/// A box in the form that builders compute with.
-#[derive(Clone, Copy, Debug)]
-pub(super) struct Bounds {
-    pub(super) lo: Vec3A,
-    pub(super) hi: Vec3A,
-}
-
-impl Bounds {
-    pub(super) const EMPTY: Self = Self { lo: Vec3A::INFINITY, hi: Vec3A::NEG_INFINITY };
-
-    #[inline]
-    pub(super) fn union(self, other: Self) -> Self {
-        Self { lo: self.lo.min(other.lo), hi: self.hi.max(other.hi) }
-    }
-
-    #[inline]
-    pub(super) fn half_area(self) -> f32 {
-        let e = (self.hi - self.lo).max(Vec3A::ZERO);
-        e.x * e.y + e.y * e.z + e.z * e.x
-    }
-
-    /// Twice the centre.
-    #[inline]
-    pub(super) fn center(self) -> Vec3A {
-        self.lo + self.hi
-    }
-
-    pub(super) fn longest_side(self) -> f32 {
-        (self.hi - self.lo).max_element().next_up()
-    }
-}
-
-impl From<Aabb> for Bounds {
-    fn from(b: Aabb) -> Self {
-        Self { lo: b.lo.into(), hi: b.hi.into() }
-    }
-}
-
-impl From<Bounds> for Aabb {
-    fn from(b: Bounds) -> Self {
-        Self { lo: b.lo.into(), hi: b.hi.into() }
-    }
-}
-
-/// A primitive, or the part of one that lies in a box.
-#[derive(Clone, Copy, Debug)]
-pub(super) struct Item {
-    pub(super) bounds: Bounds,
-    pub(super) prim: u32,
-}
-
-/// A node over `count` items. Its left child follows it; every item has a leaf of its own, so a subtree of n items takes
-/// 2 n − 1 nodes, and both children's places are known before they are built.
+/// A node. Its left child follows it.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Node {
-    pub(super) bounds: Bounds,
+    lo: Vec3,
+    hi: Vec3,
+    /// How far on the right child is; 0 in a leaf.
+    right: u32,
+    /// The first item below it; above subtrees, the first subtree.
+    pub(super) first: u32,
+    /// The number of items in a leaf.
     pub(super) count: u32,
-    /// Items below the left child; 0 in a leaf.
-    pub(super) left: u32,
+    pub(super) choices: Choices,
 }
 
-/// A tree whose leaves are `items`, in order.
-pub(super) struct Binary {
+impl Node {
+    pub(super) fn leaf(bounds: Bounds, first: usize, count: usize, choices: Choices) -> Self {
+        let (lo, hi) = (bounds.lo.into(), bounds.hi.into());
+        Self { lo, hi, right: 0, first: first as u32, count: count as u32, choices }
+    }
+
+    pub(super) fn inner(bounds: Bounds, first: usize, right: usize, choices: Choices) -> Self {
+        Self { right: right as u32, ..Self::leaf(bounds, first, 0, choices) }
+    }
+
+    pub(super) fn bounds(&self) -> Bounds {
+        Bounds { lo: self.lo.into(), hi: self.hi.into() }
+    }
+}
+
+/// The indices of the children of a node that is no leaf.
+pub(super) fn children(nodes: &[Node], index: usize) -> Option<[usize; 2]> {
+    let right = nodes[index].right as usize;
+    (right > 0).then_some([index + 1, index + right])
+}
+
+/// The nodes that show a subtree in at most so many places.
+pub(super) fn show(nodes: &[Node], index: usize, places: usize, shown: &mut impl FnMut(usize, usize)) {
+    match (children(nodes, index), nodes[index].choices.left_of(places)) {
+        (Some([left, right]), Some(left_places)) => {
+            show(nodes, left, left_places, shown);
+            show(nodes, right, places - left_places, shown);
+        }
+        (_, None) => shown(index, 1),
+        (None, Some(_)) => shown(index, places),
+    }
+}
+
+/// A tree over items. Its leaves hold as many as fit into a leaf, of one kind.
+pub(super) struct Subtree<'a> {
     pub(super) nodes: Vec<Node>,
-    pub(super) items: Vec<Item>,
+    pub(super) items: Cow<'a, [Item]>,
 }
 
-impl Binary {
-    /// One item for each primitive, and room for the nodes.
-    pub(super) fn new(primitives: &[Primitive], objects: &[Arc<Bvh>]) -> Self {
-        let item = |(i, p): (usize, &Primitive)| Item { bounds: p.bounds(objects).into(), prim: i as u32 };
-        let items: Vec<_> = primitives.iter().enumerate().map(item).collect();
-        let empty = Node { bounds: Bounds::EMPTY, count: 0, left: 0 };
-        Self { nodes: vec![empty; (2 * items.len()).saturating_sub(1)], items }
+/// A tree over subtrees.
+pub(super) struct Forest<'a> {
+    pub(super) top: Vec<Node>,
+    pub(super) subtrees: Vec<Subtree<'a>>,
+    pub(super) plan: Plan,
+}
+
+impl<'a> Forest<'a> {
+    pub(super) fn new(subtree: Subtree<'a>, plan: Plan) -> Self {
+        let root = subtree.nodes[0];
+        let top = vec![Node::leaf(root.bounds(), 0, 0, root.choices)];
+        Self { top, subtrees: vec![subtree], plan }
     }
 
-    pub(super) fn bounds(&self) -> Aabb {
-        self.nodes.first().map_or(Aabb::EMPTY, |root| root.bounds.into())
-    }
-
-    /// The children of a node that is no leaf.
-    pub(super) fn children(&self, node: usize) -> Option<[usize; 2]> {
-        let left = self.nodes[node].left as usize;
-        (left > 0).then_some([node + 1, node + 2 * left])
+    pub(super) fn join(mut left: Self, mut right: Self, bounds: Bounds) -> Self {
+        let (plan, choices) = Plan::join(&left.plan, &right.plan, bounds.half_area());
+        let mut top = Vec::with_capacity(1 + left.top.len() + right.top.len());
+        top.push(Node::inner(bounds, 0, 1 + left.top.len(), choices));
+        right.top.iter_mut().for_each(|node| node.first += left.subtrees.len() as u32);
+        top.append(&mut left.top);
+        top.append(&mut right.top);
+        left.subtrees.append(&mut right.subtrees);
+        Self { top, subtrees: left.subtrees, plan }
     }
 }

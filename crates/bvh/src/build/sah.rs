@@ -1,142 +1,96 @@
-//! The balanced builder: binned surface area heuristic.
+//! The balanced builder: the binned surface area heuristic, from the top down.
 //!
-//! A node's items are split where the expected cost of a ray, Σ area · count, is least, tried at the borders of bins along
-//! each axis (Wald 2007, doi:10.1109/RT.2007.4342588). Subtrees are built in parallel; where each one's nodes go is known
-//! beforehand, so the tree is the same for any number of threads.
+//! A node's items are split where the expected cost of a ray, Σ area · count, is least (Wald 2007,
+//! doi:10.1109/RT.2007.4342588). Threads share the work on large nodes, then each takes subtrees.
 
-use std::sync::Arc;
+use std::borrow::Cow;
 
 use crate::build::MAX_DEPTH;
-use crate::build::binary::{Binary, Bounds, Item, Node};
-use crate::bvh::Bvh;
-use crate::shape::Primitive;
+use crate::build::binary::{Forest, Node, Subtree};
+use crate::build::bins::{Grid, Split};
+use crate::build::bounds::Bounds;
+use crate::build::chunks;
+use crate::build::item::{Item, bounds_of};
+use crate::build::plan::Plan;
 
-const BINS: usize = 32;
-/// Subtrees with fewer items are not worth a thread.
-const PARALLEL: usize = 4096;
+/// The most items in a subtree, which is one thread's work.
+pub(super) const SUBTREE: usize = 1 << 12;
+/// So few items are not split, if they are of one kind: the heuristic has no use for more leaves.
+pub(super) const SMALL: usize = 8;
 
-pub(super) fn build(primitives: &[Primitive], objects: &[Arc<Bvh>]) -> Binary {
-    let mut binary = Binary::new(primitives, objects);
-    if !binary.items.is_empty() {
-        split(&mut binary.nodes, &mut binary.items, 0);
+/// The tree of items, which are reordered.
+pub(super) fn build(items: &mut [Item], bounds: Bounds, depth: usize) -> Forest<'_> {
+    if items.len() <= SUBTREE {
+        return subtree(items, bounds, depth);
     }
-    binary
-}
-
-/// Builds the subtree of `items`, which are reordered, into `nodes`, which are exactly as many as it needs.
-fn split(nodes: &mut [Node], items: &mut [Item], depth: usize) {
-    let (mut bounds, mut centers) = (Bounds::EMPTY, Bounds::EMPTY);
-    for item in items.iter() {
-        let center = item.bounds.center();
-        bounds = bounds.union(item.bounds);
-        centers = centers.union(Bounds { lo: center, hi: center });
-    }
-    let count = items.len();
-    let Some((node, below)) = nodes.split_first_mut() else {
-        return;
-    };
-    *node = Node { bounds, count: count as u32, left: 0 };
-    if count <= 1 {
-        return;
-    }
-    let levels_needed = count.next_power_of_two().ilog2() as usize;
-    let best = if depth + levels_needed < MAX_DEPTH { best_split(items, centers) } else { None };
-    let middle = match best {
-        Some(best) => partition(items, &best),
-        None => halve(items, centers),
-    };
-    node.left = middle as u32;
+    let (middle, [left, right]) = split(items, depth);
     let (left_items, right_items) = items.split_at_mut(middle);
-    let (left_nodes, right_nodes) = below.split_at_mut(2 * middle - 1);
-    let mut left = || split(left_nodes, left_items, depth + 1);
-    let mut right = || split(right_nodes, right_items, depth + 1);
-    if count > PARALLEL {
-        rayon::join(left, right);
-    } else {
-        left();
-        right();
-    }
+    let (left, right) = rayon::join(|| build(left_items, left, depth + 1), || build(right_items, right, depth + 1));
+    Forest::join(left, right, bounds)
 }
 
-struct Split {
-    axis: usize,
-    /// Items whose bin is below this go left.
-    bin: usize,
-    bins: Bins,
-    cost: f32,
+fn subtree(items: &mut [Item], bounds: Bounds, depth: usize) -> Forest<'_> {
+    let mut nodes = Vec::with_capacity(items.len());
+    let plan = branch(&mut nodes, items, 0, bounds, depth);
+    nodes.shrink_to_fit();
+    Forest::new(Subtree { nodes, items: Cow::Borrowed(items) }, plan)
 }
 
-/// Maps centres to bins along one axis.
-#[derive(Clone, Copy)]
-struct Bins {
-    lo: f32,
-    scale: f32,
-    count: usize,
+/// Appends the tree of items, of which the first is number `first` of the subtree.
+pub(super) fn branch(nodes: &mut Vec<Node>, items: &mut [Item], first: usize, bounds: Bounds, depth: usize) -> Plan {
+    let index = nodes.len();
+    let kind = items[0].kind();
+    let is_small = items.len() <= SMALL.min(kind.lanes());
+    if is_small && items.iter().all(|item| item.kind() == kind) {
+        let (plan, choices) = Plan::leaf(bounds.half_area(), kind, items.len());
+        nodes.push(Node::leaf(bounds, first, items.len(), choices));
+        return plan;
+    }
+    let (middle, sides) = if is_small { split_kinds(items) } else { split(items, depth) };
+    let (left_items, right_items) = items.split_at_mut(middle);
+    nodes.push(Node::leaf(bounds, first, 0, Default::default()));
+    let left = branch(nodes, left_items, first, sides[0], depth + 1);
+    let right_index = nodes.len();
+    let right = branch(nodes, right_items, first + middle, sides[1], depth + 1);
+    let (plan, choices) = Plan::join(&left, &right, bounds.half_area());
+    nodes[index] = Node::inner(bounds, first, right_index - index, choices);
+    plan
 }
 
-impl Bins {
-    #[inline]
-    fn index(&self, center: f32) -> usize {
-        (((center - self.lo) * self.scale) as usize).min(self.count - 1)
-    }
+/// Reorders items; returns how many go left, and the boxes of both sides.
+fn split(items: &mut [Item], depth: usize) -> (usize, [Bounds; 2]) {
+    // Levels that halving takes, and some for kinds.
+    let levels_needed = items.len().next_power_of_two().ilog2() as usize + 2;
+    let centers = chunks::centers(items);
+    let split = match items.len() {
+        _ if depth + levels_needed >= MAX_DEPTH => None,
+        0..=32 => split_in_bins::<8>(items, centers),
+        33..=1024 => split_in_bins::<16>(items, centers),
+        _ => split_in_bins::<32>(items, centers),
+    };
+    split.unwrap_or_else(|| halve(items, centers))
 }
 
-/// The cheapest split over all axes; none if all centres coincide.
-fn best_split(items: &[Item], centers: Bounds) -> Option<Split> {
-    let count = BINS.min(4 + items.len() / 2);
-    let bins = [0, 1, 2].map(|axis| {
-        let scale = count as f32 / (centers.hi[axis] - centers.lo[axis]);
-        Bins { lo: centers.lo[axis], scale: if scale.is_finite() { scale } else { 0.0 }, count }
-    });
-    let mut filled = [[(Bounds::EMPTY, 0_u32); BINS]; 3];
-    for item in items {
-        let center = item.bounds.center();
-        for axis in 0..3 {
-            let (bounds, n) = &mut filled[axis][bins[axis].index(center[axis])];
-            (*bounds, *n) = (bounds.union(item.bounds), *n + 1);
-        }
-    }
-    let axes = (0..3).filter(|&axis| bins[axis].scale > 0.0);
-    axes.filter_map(|axis| cheapest(&filled[axis][..count], axis, bins[axis])).min_by(|a, b| a.cost.total_cmp(&b.cost))
-}
-
-/// The cheapest split along one axis, by a sweep from either end.
-fn cheapest(filled: &[(Bounds, u32)], axis: usize, bins: Bins) -> Option<Split> {
-    let mut right = [(0.0, 0); BINS];
-    let (mut bounds, mut n) = (Bounds::EMPTY, 0);
-    for bin in (1..filled.len()).rev() {
-        (bounds, n) = (bounds.union(filled[bin].0), n + filled[bin].1);
-        right[bin] = (bounds.half_area() * n as f32, n);
-    }
-    let mut best: Option<Split> = None;
-    let (mut bounds, mut n) = (Bounds::EMPTY, 0);
-    for bin in 1..filled.len() {
-        (bounds, n) = (bounds.union(filled[bin - 1].0), n + filled[bin - 1].1);
-        let cost = bounds.half_area() * n as f32 + right[bin].0;
-        if n > 0 && right[bin].1 > 0 && best.as_ref().is_none_or(|s| cost < s.cost) {
-            best = Some(Split { axis, bin, bins, cost });
-        }
-    }
-    best
-}
-
-/// Moves the left side of a split to the front; returns its length.
-fn partition(items: &mut [Item], split: &Split) -> usize {
-    let mut left = 0;
-    for i in 0..items.len() {
-        if split.bins.index(items[i].bounds.center()[split.axis]) < split.bin {
-            items.swap(left, i);
-            left += 1;
-        }
-    }
-    left
+fn split_in_bins<const N: usize>(items: &mut [Item], centers: Bounds) -> Option<(usize, [Bounds; 2])> {
+    let grid = Grid::<N>::new(centers);
+    let split: Split = chunks::bins(items, &grid).best()?;
+    Some((chunks::partition(items, |item| grid.goes_left(&split, item)), split.bounds))
 }
 
 /// The fallback: halves by the order of centres along the longest axis; always makes progress.
-fn halve(items: &mut [Item], centers: Bounds) -> usize {
+pub(super) fn halve(items: &mut [Item], centers: Bounds) -> (usize, [Bounds; 2]) {
     let axis = (centers.hi - centers.lo).max_position();
     let middle = items.len() / 2;
-    let key = |item: &Item| item.bounds.center()[axis];
-    items.select_nth_unstable_by(middle, |a, b| key(a).total_cmp(&key(b)).then(a.prim.cmp(&b.prim)));
-    middle
+    let key = |item: &Item| item.center_on(axis);
+    items.select_nth_unstable_by(middle, |a, b| key(a).total_cmp(&key(b)).then(a.prim().cmp(&b.prim())));
+    let (left, right) = items.split_at(middle);
+    (middle, [chunks::bounds(left), chunks::bounds(right)])
+}
+
+/// Those of the first item's kind go left.
+fn split_kinds(items: &mut [Item]) -> (usize, [Bounds; 2]) {
+    let kind = items[0].kind();
+    let middle = chunks::partition(items, |item| item.kind() == kind);
+    let (left, right) = items.split_at(middle);
+    (middle, [bounds_of(left), bounds_of(right)])
 }

@@ -8,7 +8,7 @@ mod triangle;
 
 use std::sync::Arc;
 
-use glam::DVec3;
+use glam::{DVec3, Vec3};
 
 use crate::aabb::Aabb;
 use crate::bvh::Bvh;
@@ -71,6 +71,28 @@ impl Primitive {
             Self::Sphere(s) => Some(s.bounds()),
             Self::MovingTriangle(t) => Some(t.bounds()),
             Self::Instance(_) => None,
+        }
+    }
+
+    /// Whether all its numbers are finite; the times of an instance at rest need not be.
+    pub(crate) fn is_finite(&self) -> bool {
+        match self {
+            Self::Triangle(t) => t.is_finite(),
+            Self::Quad(q) => [q.corner, q.u, q.v].into_iter().all(Vec3::is_finite),
+            Self::Sphere(s) => s.center.is_finite() && s.radius.is_finite(),
+            Self::MovingTriangle(t) => t.at.iter().all(Triangle::is_finite) && t.time.into_iter().all(f32::is_finite),
+            Self::Instance(i) => i.is_finite(),
+        }
+    }
+
+    /// Whether there is nothing to hit: no radius, no area in double precision, or a transform that cannot be undone.
+    pub(crate) fn is_degenerate(&self) -> bool {
+        match self {
+            Self::Triangle(t) => t.is_degenerate(),
+            Self::Quad(q) => q.u.as_dvec3().cross(q.v.as_dvec3()) == DVec3::ZERO,
+            Self::Sphere(s) => s.radius <= 0.0,
+            Self::MovingTriangle(t) => t.at.iter().all(Triangle::is_degenerate) || t.time[0] > t.time[1],
+            Self::Instance(i) => i.is_degenerate(),
         }
     }
 

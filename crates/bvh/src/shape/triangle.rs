@@ -23,6 +23,16 @@ impl Triangle {
         [self.a.as_dvec3(), self.b.as_dvec3(), self.c.as_dvec3()]
     }
 
+    pub(crate) fn is_finite(&self) -> bool {
+        [self.a, self.b, self.c].into_iter().all(Vec3::is_finite)
+    }
+
+    /// Whether it has no area.
+    pub(crate) fn is_degenerate(&self) -> bool {
+        let [a, b, c] = self.vertices();
+        (b - a).cross(c - a) == DVec3::ZERO
+    }
+
     pub(crate) fn bounds(&self) -> Aabb {
         Aabb::around(self.vertices())
     }

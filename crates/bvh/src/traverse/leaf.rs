@@ -66,7 +66,7 @@ impl<const ANY: bool, A: Accept> Task for OtherLeaf<'_, ANY, A> {
             Kind::Moving => {
                 let (b, time) = (&tree.moving[block], search.ray.time);
                 let points = b.load(cpu, time);
-                let met = Corners::<FEW, false, C>::meet(cpu, ray, points, (b.size, b.reach), b.used(time), t_max);
+                let met = Corners::<FEW, false, C>::meet(cpu, ray, points, (b.size, b.reach), b.used_at(time), t_max);
                 leaf.take::<ANY, FEW, false, _>(cpu, met, search, accept)
             }
             Kind::Instance => test_instance::<ANY>(tree, block, search, accept),
@@ -148,7 +148,7 @@ pub(super) fn test_instance<const ANY: bool>(
     accept: &impl Accept,
 ) -> bool {
     search.settle(tree, accept);
-    let instance = tree.instance(block);
+    let instance = &tree.instances[block].instance;
     let object = &*tree.objects[instance.object as usize];
     let Some(entry) = search.ray.enters(instance.bounds(object)) else {
         return false;

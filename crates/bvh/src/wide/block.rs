@@ -4,7 +4,7 @@
 use glam::Vec3;
 
 use crate::filter::each;
-use crate::instance::Affine;
+use crate::instance::Instance;
 use crate::shape::{MovingTriangle, Primitive, Quad, Sphere, Triangle};
 use crate::simd::{LANES, Simd};
 
@@ -115,7 +115,7 @@ pub(crate) struct MovingBlock {
     pub(crate) size: f32,
     /// The largest coordinate, by size.
     pub(crate) reach: f32,
-    used: u32,
+    pub(crate) used: u32,
 }
 
 impl MovingBlock {
@@ -139,7 +139,7 @@ impl MovingBlock {
 
     /// Bit i: lane i exists at this time.
     #[inline]
-    pub(crate) fn used(&self, time: f32) -> u32 {
+    pub(crate) fn used_at(&self, time: f32) -> u32 {
         (0..FEW).map(|i| u32::from(self.time[i][0] <= time && time <= self.time[i][1]) << i).sum::<u32>() & self.used
     }
 
@@ -169,20 +169,15 @@ impl MovingBlock {
 #[derive(Clone, Debug)]
 pub(crate) struct InstanceLeaf {
     pub(crate) id: u32,
-    /// The index of what it shows.
-    pub(crate) object: u32,
-    /// The index of its first transform.
-    pub(crate) transform: u32,
-    /// Whether a second transform follows, that of the end of its time.
-    pub(crate) moves: bool,
-    pub(crate) time: [f32; 2],
+    pub(crate) instance: Instance,
 }
 
 impl InstanceLeaf {
-    /// The transforms at the beginning and at the end.
-    #[inline]
-    pub(crate) fn keys(&self, transforms: &[Affine]) -> [Affine; 2] {
-        let first = self.transform as usize;
-        [transforms[first], transforms[first + usize::from(self.moves)]]
+    /// None of another primitive.
+    pub(super) fn new(id: u32, primitive: &Primitive) -> Option<Self> {
+        match *primitive {
+            Primitive::Instance(instance) => Some(Self { id, instance }),
+            _ => None,
+        }
     }
 }

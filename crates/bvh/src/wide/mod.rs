@@ -2,17 +2,20 @@
 
 mod block;
 mod node;
+mod replace;
+mod room;
 
 use std::sync::Arc;
 
 pub(crate) use block::{CornerBlock, FEW, InstanceLeaf, MovingBlock, SphereBlock};
 pub(crate) use node::{Child, Kind, Node, Target};
+pub(crate) use room::{Plain, Room, Sizes, zeroed};
 
 use crate::bvh::Bvh;
-use crate::instance::{Affine, Instance};
 use crate::ray::{Hit, PrimHit, RayF64};
 use crate::shape::Primitive;
 use crate::simd::LANES;
+use crate::wide::room::Places;
 
 /// Everything that a walk reads.
 #[derive(Clone, Debug, Default)]
@@ -25,7 +28,6 @@ pub(crate) struct Tree {
     pub(crate) spheres: Vec<SphereBlock>,
     pub(crate) moving: Vec<MovingBlock>,
     pub(crate) instances: Vec<InstanceLeaf>,
-    pub(crate) transforms: Vec<Affine>,
     /// What the instances show.
     pub(crate) objects: Vec<Arc<Bvh>>,
     /// The caller's index of each instance, with its index here, sorted.
@@ -33,36 +35,41 @@ pub(crate) struct Tree {
 }
 
 impl Tree {
-    /// Appends a leaf of primitives of one kind, as many as the kind allows, in a box whose longest side is `size`.
-    pub(crate) fn push_leaf(
-        &mut self,
-        kind: Kind,
-        mut primitives: impl Iterator<Item = (u32, Primitive)>,
-        size: f32,
-    ) -> Child {
-        let index = match kind {
-            Kind::FewTriangles => push(&mut self.few_triangles, CornerBlock::new(primitives, size)),
-            Kind::Triangles => push(&mut self.triangles, CornerBlock::new(primitives, size)),
-            Kind::Quads => push(&mut self.quads, CornerBlock::new(primitives, size)),
-            Kind::Spheres => push(&mut self.spheres, SphereBlock::new(primitives)),
-            Kind::Moving => push(&mut self.moving, MovingBlock::new(primitives, size)),
-            Kind::Instance => match primitives.next() {
-                Some((id, Primitive::Instance(instance))) => self.push_instance(id, &instance),
-                _ => return Child::NONE,
-            },
-            Kind::Nothing => return Child::NONE,
-        };
-        Child::leaf(kind, index)
+    /// A tree of known size, yet to be written.
+    pub(crate) fn with_sizes(sizes: Sizes) -> Self {
+        Self {
+            nodes: zeroed(sizes.nodes),
+            few_triangles: zeroed(sizes.of(Kind::FewTriangles)),
+            triangles: zeroed(sizes.of(Kind::Triangles)),
+            quads: zeroed(sizes.of(Kind::Quads)),
+            spheres: zeroed(sizes.of(Kind::Spheres)),
+            moving: zeroed(sizes.of(Kind::Moving)),
+            instances: zeroed(sizes.of(Kind::Instance)),
+            ..Self::default()
+        }
     }
 
-    fn push_instance(&mut self, id: u32, instance: &Instance) -> usize {
-        let Instance { object, at: [from, to], time } = *instance;
-        let (transform, moves) = (self.transforms.len() as u32, from != to);
-        self.transforms.push(from);
-        if moves {
-            self.transforms.push(to);
+    /// All of its places.
+    pub(crate) fn room(&mut self) -> Room<'_> {
+        Room {
+            nodes: Places::new(&mut self.nodes),
+            few_triangles: Places::new(&mut self.few_triangles),
+            triangles: Places::new(&mut self.triangles),
+            quads: Places::new(&mut self.quads),
+            spheres: Places::new(&mut self.spheres),
+            moving: Places::new(&mut self.moving),
+            instances: Places::new(&mut self.instances),
         }
-        push(&mut self.instances, InstanceLeaf { id, object, transform, moves, time })
+    }
+
+    /// The number of leaves.
+    pub(crate) fn leaves(&self) -> usize {
+        self.blocks().into_iter().map(|(_, blocks)| blocks).sum()
+    }
+
+    /// The number of primitives in a block.
+    pub(crate) fn count(&self, kind: Kind, block: usize) -> usize {
+        (0..kind.lanes()).filter(|&lane| self.is_used(kind, block, lane)).count()
     }
 
     /// A node that the root or a child refers to.
@@ -74,7 +81,7 @@ impl Tree {
     }
 
     /// The blocks that there are of each kind.
-    pub(crate) fn blocks(&self) -> [(Kind, usize); 6] {
+    pub(crate) fn blocks(&self) -> [(Kind, usize); Kind::COUNT] {
         [
             (Kind::FewTriangles, self.few_triangles.len()),
             (Kind::Triangles, self.triangles.len()),
@@ -99,7 +106,7 @@ impl Tree {
             Kind::Quads => Primitive::Quad(self.quads[block].quad(lane)),
             Kind::Spheres => Primitive::Sphere(self.spheres[block].sphere(lane)),
             Kind::Moving => Primitive::MovingTriangle(self.moving[block].triangle(lane & (FEW - 1))),
-            Kind::Instance | Kind::Nothing => Primitive::Instance(self.instance(block)),
+            Kind::Instance | Kind::Nothing => Primitive::Instance(self.instances[block].instance),
         }
     }
 
@@ -114,13 +121,6 @@ impl Tree {
             Kind::Moving => self.moving[block].triangle(lane & (FEW - 1)).intersect(ray),
             Kind::Instance | Kind::Nothing => None,
         }
-    }
-
-    /// The instance of a leaf.
-    #[inline]
-    pub(crate) fn instance(&self, block: usize) -> Instance {
-        let leaf = &self.instances[block];
-        Instance { object: leaf.object, at: leaf.keys(&self.transforms), time: leaf.time }
     }
 
     /// Finds an instance by the caller's index.
@@ -160,11 +160,6 @@ impl Tree {
             + size_of_val(self.spheres.as_slice())
             + size_of_val(self.moving.as_slice())
             + size_of_val(self.instances.as_slice())
-            + size_of_val(self.transforms.as_slice())
+            + size_of_val(self.instance_of.as_slice())
     }
-}
-
-fn push<T>(list: &mut Vec<T>, item: T) -> usize {
-    list.push(item);
-    list.len() - 1
 }

@@ -1,5 +1,7 @@
 //! Nodes and the references that they hold.
 
+use glam::Vec3;
+
 use crate::aabb::Aabb;
 use crate::shape::Primitive;
 use crate::simd::LANES;
@@ -21,6 +23,9 @@ pub(crate) enum Kind {
 }
 
 impl Kind {
+    /// Kinds of leaves that hold something.
+    pub(crate) const COUNT: usize = 6;
+
     /// From its three bits.
     #[inline(always)]
     pub(crate) fn from_bits(bits: u32) -> Self {
@@ -130,5 +135,11 @@ impl Node {
         let hi = [0, 1, 2].map(|axis| std::array::from_fn(|lane| bounds(lane).hi[axis]));
         let child = std::array::from_fn(|lane| children.get(lane).map_or(Child::NONE, |c| c.0));
         Self { planes: [lo, hi], child }
+    }
+
+    /// The box of a lane's child.
+    pub(crate) fn bounds(&self, lane: usize) -> Aabb {
+        let [lo, hi] = self.planes.map(|planes| Vec3::from_array(planes.map(|plane| plane[lane])));
+        Aabb { lo, hi }
     }
 }

@@ -7,24 +7,31 @@ use crate::random::Random;
 
 /// Asks tree and list the same questions; most must have an answer, unless there is nothing to hit.
 fn compare(name: &str, shapes: Vec<Primitive>, extent: f32, rays: usize, r: &mut Random) {
-    let (tree, list) = (Bvh::build(&shapes, Quality::Balanced).unwrap(), Bvh::list(&shapes).unwrap());
-    assert_eq!(tree.bounds(), list.bounds());
-    let plain = tree.clone().with_isa(Isa::Scalar);
+    let list = Bvh::list(&shapes).unwrap();
+    let trees = Quality::ALL.map(|quality| Bvh::build(&shapes, quality).unwrap());
+    for tree in &trees {
+        assert_eq!(tree.bounds(), list.bounds());
+        assert_eq!(tree.validate(), Ok(()));
+    }
+    let [fast, balanced, best] = trees;
+    let plain = balanced.clone().with_isa(Isa::Scalar);
+    let trees = [("balanced", balanced), ("plain instructions", plain), ("fast", fast), ("best", best)];
     let mut hits = 0;
     for _ in 0..rays {
         let ray = r.ray(&shapes, extent);
-        let [a, b, c] = [&tree, &plain, &list].map(|bvh| {
+        let answer = |bvh: &Bvh| {
             let hit = bvh.intersect(&ray);
-            let bits = hit.map(|h| (h.t.to_bits(), h.prim, h.u.to_bits(), h.v.to_bits()));
             if let Some(h) = hit {
                 assert!(h.t <= ray.t_max && h.t > 0.0, "{name}: {ray:?} {h:?}");
                 assert_eq!(bvh.surface(&h, 0.0), surface(&shapes[h.prim as usize]));
             }
-            bits
-        });
-        assert_eq!(a, b, "{name}, {} shapes, plain instructions: {ray:?}", shapes.len());
-        assert_eq!(a, c, "{name}, {} shapes: {ray:?}", shapes.len());
-        hits += usize::from(a.is_some());
+            hit.map(|h| (h.t.to_bits(), h.prim, h.u.to_bits(), h.v.to_bits()))
+        };
+        let expected = answer(&list);
+        for (tree_name, tree) in &trees {
+            assert_eq!(answer(tree), expected, "{name}, {} shapes, {tree_name}: {ray:?}", shapes.len());
+        }
+        hits += usize::from(expected.is_some());
     }
     assert!(shapes.is_empty() || hits > rays / 20, "{name}: only {hits} of {rays} rays hit");
 }
@@ -157,17 +164,17 @@ fn grids_seen_edge_on() {
             }
         };
         let shapes: Vec<_> = (0..n * n).map(shape).collect();
-        let (tree, list) = (Bvh::build(&shapes, Quality::Balanced).unwrap(), Bvh::list(&shapes).unwrap());
+        let list = Bvh::list(&shapes).unwrap();
+        let trees = Quality::ALL.map(|quality| Bvh::build(&shapes, quality).unwrap());
         for _ in 0..20_000 {
             let height = r.pick(&[0.0, 1e-45, 1e-30, 1e-9]);
             let o = Vec3::new(r.unit() * 3.0 - 1.0, height, r.unit() * 3.0 - 1.0);
             let d = r.direction() * Vec3::new(1.0, r.pick(&[0.0, -0.0, 1e-30, -1e-9, -1e-4]), 1.0);
             let ray = Ray::new(o, d);
-            assert_eq!(
-                tree.intersect(&ray).map(|h| (h.t, h.prim)),
-                list.intersect(&ray).map(|h| (h.t, h.prim)),
-                "{ray:?}"
-            );
+            let expected = list.intersect(&ray).map(|h| (h.t, h.prim));
+            for (tree, quality) in trees.iter().zip(Quality::ALL) {
+                assert_eq!(tree.intersect(&ray).map(|h| (h.t, h.prim)), expected, "{quality}: {ray:?}");
+            }
         }
     }
 }
@@ -201,13 +208,16 @@ fn fans_seen_edge_on() {
             }
         };
         let shapes: Vec<_> = (0..40).map(blade).collect();
-        let (tree, list) = (Bvh::build(&shapes, Quality::Balanced).unwrap(), Bvh::list(&shapes).unwrap());
+        let list = Bvh::list(&shapes).unwrap();
+        let trees = Quality::ALL.map(|quality| Bvh::build(&shapes, quality).unwrap());
         for _ in 0..1000 {
             let on_hinge = corner + hinge * r.unit();
             let o = on_hinge - (wing + hinge * (r.unit() - 0.5)) * r.pick(&[1e-6, 1e-3, 1.0]);
             let ray = Ray::new(o, on_hinge + wing * r.pick(&[0.0, 1e-7, 1e-5]) - o);
-            let [a, b] = [&tree, &list].map(|bvh| bvh.intersect(&ray).map(|h| (h.t.to_bits(), h.prim)));
-            assert_eq!(a, b, "{ray:?}");
+            let answer = |bvh: &Bvh| bvh.intersect(&ray).map(|h| (h.t.to_bits(), h.prim));
+            for (tree, quality) in trees.iter().zip(Quality::ALL) {
+                assert_eq!(answer(tree), answer(&list), "{quality}: {ray:?}");
+            }
         }
     }
 }
