@@ -12,7 +12,7 @@ use crate::search::{Accept, Everything, Search, Where};
 use crate::shape::Surface;
 use crate::simd::{Isa, Processor};
 use crate::stats::Stats;
-use crate::traverse::Walk;
+use crate::traverse::{Flight, Walk};
 use crate::wide::{Child, Tree};
 
 /// Primitives sorted for rays.
@@ -155,24 +155,42 @@ impl Bvh {
         Walk::<ANY, _> { bvh: self, ray, o_error: 0.0, search, accept }.search()
     }
 
-    /// As [`intersect`](Self::intersect), for many rays.
+    /// As [`intersect`](Self::intersect), for many rays that go different ways, such as those that surfaces have scattered:
+    /// several are in flight at a time, which is faster in large trees, and slower for rays that go together or in small trees.
     ///
     /// # Panics
     /// If there are fewer `hits` than `rays`.
     pub fn intersect_batch(&self, rays: &[Ray], hits: &mut [Option<Hit>]) {
-        for (ray, hit) in rays.iter().zip(&mut hits[..rays.len()]) {
-            *hit = self.intersect(ray);
+        let hits = &mut hits[..rays.len()];
+        if self.is_worth_flying() {
+            self.cpu.call(Flight::<false, _> { bvh: self, rays, land: |index: usize, _, hit| hits[index] = hit });
+        } else {
+            hits.iter_mut().zip(rays).for_each(|(hit, ray)| *hit = self.intersect(ray));
         }
     }
 
-    /// As [`occluded`](Self::occluded), for many rays.
+    /// As [`occluded`](Self::occluded), for many rays, as [`intersect_batch`](Self::intersect_batch).
     ///
     /// # Panics
     /// If there are fewer `occluded` than `rays`.
     pub fn occluded_batch(&self, rays: &[Ray], occluded: &mut [bool]) {
-        for (ray, occluded) in rays.iter().zip(&mut occluded[..rays.len()]) {
-            *occluded = self.occluded(ray);
+        let occluded = &mut occluded[..rays.len()];
+        if self.is_worth_flying() {
+            self.cpu.call(Flight::<true, _> {
+                bvh: self,
+                rays,
+                land: |index: usize, is_hit, _| occluded[index] = is_hit,
+            });
+        } else {
+            occluded.iter_mut().zip(rays).for_each(|(occluded, ray)| *occluded = self.occluded(ray));
         }
+    }
+
+    /// Whether the tree is so large that rays wait for memory.
+    fn is_worth_flying(&self) -> bool {
+        /// About the memory near a core.
+        const NEAR: usize = 1 << 20;
+        !self.is_list && self.stats.bytes > NEAR
     }
 
     /// What the tree is made of.

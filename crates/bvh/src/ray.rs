@@ -27,6 +27,16 @@ impl Ray {
     }
 }
 
+/// The axes in cyclic order, each in turn as the last.
+pub(crate) const ORDERS: [[usize; 3]; 3] = [[1, 2, 0], [2, 0, 1], [0, 1, 2]];
+
+/// The axis of the largest of three sizes.
+#[inline(always)]
+pub(crate) fn longest<T: PartialOrd + Copy>(size: [T; 3]) -> usize {
+    let yz = 2 - usize::from(size[1] > size[2]);
+    if size[0] > size[yz] { 0 } else { yz }
+}
+
 /// Where a ray met a primitive.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Hit {

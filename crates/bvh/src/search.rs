@@ -96,12 +96,12 @@ impl Search {
         self.pending_far
     }
 
-    /// Hits nearer than this are not certain.
+    /// Hits nearer than the first are not certain, hits farther than the second do not count.
     #[inline(always)]
-    pub(crate) fn t_min(&self) -> f32 {
+    pub(crate) fn range(&self) -> [f32; 2] {
         /// Distances below this may be rounded to 0, where there is no hit.
         const LEAST: f32 = 1e-30;
-        self.floor.max(LEAST)
+        [self.floor.max(LEAST), self.pending_far]
     }
 
     #[inline(always)]

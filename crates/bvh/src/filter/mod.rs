@@ -9,10 +9,10 @@ mod corners;
 mod spheres;
 
 pub(crate) use boxes::BoxLanes;
-pub(crate) use corners::Corners;
+pub(crate) use corners::{Block, Corners, View};
 pub(crate) use spheres::meets_spheres;
 
-use crate::ray::Ray;
+use crate::ray::{ORDERS, Ray, longest};
 use crate::simd::Simd;
 
 /// Rounding errors of the sums of products in these tests, relative to their largest factors: about 20 roundings each, and
@@ -29,6 +29,13 @@ pub(crate) struct FilterRay {
     d: [f32; 3],
     /// Largest component of the direction, by size.
     d_max: f32,
+    /// The axes, that of the largest component last.
+    order: [usize; 3],
+    /// The origin, with its coordinates in that order.
+    turned_o: [f32; 3],
+    /// The first two components of the direction in that order, divided by the last, and the inverse of that.
+    shear: [f32; 2],
+    along_inv: f32,
     /// The origin is off by at most a rounding of this: 0 if it is exact.
     o_error: f32,
 }
@@ -38,7 +45,19 @@ impl FilterRay {
     #[inline(always)]
     pub(crate) fn new(ray: &Ray, o_error: f32) -> Self {
         let [o, d] = [ray.o.to_array(), ray.d.to_array()];
-        Self { o, d, d_max: d[0].abs().max(d[1].abs()).max(d[2].abs()), o_error }
+        let order = ORDERS[longest(d.map(f32::abs))];
+        let [x, y, z] = order;
+        let along_inv = 1.0 / d[z];
+        Self {
+            o,
+            d,
+            d_max: d[z].abs(),
+            order,
+            turned_o: [o[x], o[y], o[z]],
+            shear: [d[x] * along_inv, d[y] * along_inv],
+            along_inv,
+            o_error,
+        }
     }
 
     #[inline(always)]
@@ -67,12 +86,6 @@ fn sub3<const N: usize, S: Simd<N>>(s: S, a: [S::F32; 3], b: [S::F32; 3]) -> [S:
 #[inline(always)]
 fn dot<const N: usize, S: Simd<N>>(s: S, a: [S::F32; 3], b: [S::F32; 3]) -> S::F32 {
     s.mul_add(a[0], b[0], s.mul_add(a[1], b[1], s.mul(a[2], b[2])))
-}
-
-#[inline(always)]
-fn cross<const N: usize, S: Simd<N>>(s: S, a: [S::F32; 3], b: [S::F32; 3]) -> [S::F32; 3] {
-    let lane = |i: usize, j: usize| s.mul_sub(a[i], b[j], s.mul(a[j], b[i]));
-    [lane(1, 2), lane(2, 0), lane(0, 1)]
 }
 
 /// The largest component, by size.

@@ -10,7 +10,7 @@
 
 use glam::{DVec2, DVec3};
 
-use crate::ray::{PrimHit, RayF64};
+use crate::ray::{ORDERS, PrimHit, RayF64, longest};
 
 /// A vertex in the space of the ray: across it, and along the axis that is nearest to its direction.
 #[derive(Clone, Copy)]
@@ -23,10 +23,7 @@ struct Vertex {
 #[inline(always)]
 fn project<const N: usize>(vertices: [DVec3; N], ray: &RayF64) -> ([Vertex; N], f64) {
     // The axes in order, the longest of the direction last: shears are at most 1.
-    const ORDERS: [[usize; 3]; 3] = [[1, 2, 0], [2, 0, 1], [0, 1, 2]];
-    let size = ray.d.abs();
-    let longest = if size.x > size.y { if size.x > size.z { 0 } else { 2 } } else { 2 - usize::from(size.y > size.z) };
-    let [x, y, z] = ORDERS[longest];
+    let [x, y, z] = ORDERS[longest(ray.d.abs().to_array())];
     let (o, d) = (ray.o.to_array(), ray.d.to_array());
     let along_inv = 1.0 / d[z];
     let shear = DVec2::new(d[x], d[y]) * along_inv;

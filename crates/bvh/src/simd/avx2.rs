@@ -19,7 +19,7 @@ impl Avx2 {
 /// Implements [`Simd`] for one width: the number of lanes, the type of a vector, and the prefix of its instructions.
 macro_rules! impl_simd {
     ($lanes:literal, $vector:ty, $load:ident, $store:ident, $set1:ident, $add:ident, $sub:ident, $mul:ident, $div:ident,
-     $fmadd:ident, $fmsub:ident, $min:ident, $max:ident, $and:ident, $andnot:ident, $xor:ident, $cmp:ident,
+     $fmadd:ident, $fmsub:ident, $fnmadd:ident, $min:ident, $max:ident, $and:ident, $andnot:ident, $xor:ident, $or:ident, $cmp:ident,
      $movemask:ident) => {
         // SAFETY: of every block below: `self` proves that the processor has the instructions, and loads and stores go to
         // arrays of as many numbers as the vector has.
@@ -66,6 +66,10 @@ macro_rules! impl_simd {
                 unsafe { $fmsub(a, b, c) }
             }
             #[inline(always)]
+            fn neg_mul_add(self, a: $vector, b: $vector, c: $vector) -> $vector {
+                unsafe { $fnmadd(a, b, c) }
+            }
+            #[inline(always)]
             fn min(self, a: $vector, b: $vector) -> $vector {
                 unsafe { $min(a, b) }
             }
@@ -94,6 +98,10 @@ macro_rules! impl_simd {
                 unsafe { $and(a, b) }
             }
             #[inline(always)]
+            fn or(self, a: $vector, b: $vector) -> $vector {
+                unsafe { $or(a, b) }
+            }
+            #[inline(always)]
             fn bits(self, mask: $vector) -> u32 {
                 unsafe { $movemask(mask) as u32 }
             }
@@ -103,13 +111,13 @@ macro_rules! impl_simd {
 
 impl_simd! {
     8, __m256, _mm256_loadu_ps, _mm256_storeu_ps, _mm256_set1_ps, _mm256_add_ps, _mm256_sub_ps, _mm256_mul_ps, _mm256_div_ps,
-    _mm256_fmadd_ps, _mm256_fmsub_ps, _mm256_min_ps, _mm256_max_ps, _mm256_and_ps, _mm256_andnot_ps,
-    _mm256_xor_ps, _mm256_cmp_ps, _mm256_movemask_ps
+    _mm256_fmadd_ps, _mm256_fmsub_ps, _mm256_fnmadd_ps, _mm256_min_ps, _mm256_max_ps, _mm256_and_ps, _mm256_andnot_ps,
+    _mm256_xor_ps, _mm256_or_ps, _mm256_cmp_ps, _mm256_movemask_ps
 }
 impl_simd! {
     4, __m128, _mm_loadu_ps, _mm_storeu_ps, _mm_set1_ps, _mm_add_ps, _mm_sub_ps, _mm_mul_ps, _mm_div_ps,
-    _mm_fmadd_ps, _mm_fmsub_ps, _mm_min_ps, _mm_max_ps, _mm_and_ps, _mm_andnot_ps,
-    _mm_xor_ps, _mm_cmp_ps, _mm_movemask_ps
+    _mm_fmadd_ps, _mm_fmsub_ps, _mm_fnmadd_ps, _mm_min_ps, _mm_max_ps, _mm_and_ps, _mm_andnot_ps,
+    _mm_xor_ps, _mm_or_ps, _mm_cmp_ps, _mm_movemask_ps
 }
 
 impl Cpu for Avx2 {

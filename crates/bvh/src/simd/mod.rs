@@ -37,6 +37,8 @@ pub(crate) trait Simd<const N: usize>: Copy {
     fn mul_add(self, a: Self::F32, b: Self::F32, c: Self::F32) -> Self::F32;
     /// a b − c, fused or not.
     fn mul_sub(self, a: Self::F32, b: Self::F32, c: Self::F32) -> Self::F32;
+    /// c − a b, fused or not.
+    fn neg_mul_add(self, a: Self::F32, b: Self::F32, c: Self::F32) -> Self::F32;
     /// The smaller; of NaN and a number, `b`.
     fn min(self, a: Self::F32, b: Self::F32) -> Self::F32;
     /// The larger; of NaN and a number, `b`.
@@ -49,6 +51,7 @@ pub(crate) trait Simd<const N: usize>: Copy {
     /// a > b, so false for NaN: what cannot be compared is not certain.
     fn gt(self, a: Self::F32, b: Self::F32) -> Self::Mask;
     fn and(self, a: Self::Mask, b: Self::Mask) -> Self::Mask;
+    fn or(self, a: Self::Mask, b: Self::Mask) -> Self::Mask;
     /// Bit i: lane i is true.
     fn bits(self, mask: Self::Mask) -> u32;
 }

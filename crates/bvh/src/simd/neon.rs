@@ -81,6 +81,15 @@ macro_rules! impl_simd {
             ) -> [float32x4_t; $registers] {
                 each(|r| unsafe { vfmaq_f32(vnegq_f32(c[r]), a[r], b[r]) })
             }
+            #[inline(always)]
+            fn neg_mul_add(
+                self,
+                a: [float32x4_t; $registers],
+                b: [float32x4_t; $registers],
+                c: [float32x4_t; $registers],
+            ) -> [float32x4_t; $registers] {
+                each(|r| unsafe { vfmsq_f32(c[r], a[r], b[r]) })
+            }
             // Not `vminq_f32`, which makes NaN of NaN and a number.
             #[inline(always)]
             fn min(self, a: [float32x4_t; $registers], b: [float32x4_t; $registers]) -> [float32x4_t; $registers] {
@@ -112,6 +121,10 @@ macro_rules! impl_simd {
             #[inline(always)]
             fn and(self, a: [uint32x4_t; $registers], b: [uint32x4_t; $registers]) -> [uint32x4_t; $registers] {
                 each(|r| unsafe { vandq_u32(a[r], b[r]) })
+            }
+            #[inline(always)]
+            fn or(self, a: [uint32x4_t; $registers], b: [uint32x4_t; $registers]) -> [uint32x4_t; $registers] {
+                each(|r| unsafe { vorrq_u32(a[r], b[r]) })
             }
             #[inline(always)]
             fn bits(self, mask: [uint32x4_t; $registers]) -> u32 {

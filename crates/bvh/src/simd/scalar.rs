@@ -47,6 +47,10 @@ impl<const N: usize> Simd<N> for Scalar {
         std::array::from_fn(|i| a[i] * b[i] - c[i])
     }
     #[inline(always)]
+    fn neg_mul_add(self, a: [f32; N], b: [f32; N], c: [f32; N]) -> [f32; N] {
+        std::array::from_fn(|i| c[i] - a[i] * b[i])
+    }
+    #[inline(always)]
     fn min(self, a: [f32; N], b: [f32; N]) -> [f32; N] {
         std::array::from_fn(|i| if a[i] < b[i] { a[i] } else { b[i] })
     }
@@ -73,6 +77,10 @@ impl<const N: usize> Simd<N> for Scalar {
     #[inline(always)]
     fn and(self, a: u32, b: u32) -> u32 {
         a & b
+    }
+    #[inline(always)]
+    fn or(self, a: u32, b: u32) -> u32 {
+        a | b
     }
     #[inline(always)]
     fn bits(self, mask: u32) -> u32 {

@@ -1,6 +1,6 @@
 //! Leaves: many primitives at once roughly, those that may be met exactly.
 
-use crate::filter::{Corners, FilterRay, each, meets_spheres};
+use crate::filter::{Corners, FilterRay, View, each, meets_spheres};
 use crate::search::{Accept, Search, Slot};
 use crate::simd::{Cpu, LANES, Simd, Task};
 use crate::traverse::Walk;
@@ -18,18 +18,19 @@ pub(super) fn test_leaf<const ANY: bool, C: Cpu, A: Accept>(
     search: &mut Search,
     accept: &A,
 ) -> bool {
-    let t_max = search.t_max();
     let leaf = Leaf { tree, kind, block };
     match kind {
         Kind::Triangles => {
             let b = &tree.triangles[block];
-            let met = Corners::<LANES, false, C>::meet(cpu, ray, b.load(cpu), (b.size, 0.0), b.used, t_max);
-            leaf.take::<ANY, LANES, false, _>(cpu, met, search, accept)
+            let corners = View::<LANES, C>::new(cpu, ray).points(&b.points);
+            let met = Corners::meet(cpu, ray, b.block(), corners, search.range());
+            leaf.take::<ANY, LANES, 3, _>(cpu, met, search, accept)
         }
         Kind::FewTriangles => {
             let b = &tree.few_triangles[block];
-            let met = Corners::<FEW, false, C>::meet(cpu, ray, b.load(cpu), (b.size, 0.0), b.used, t_max);
-            leaf.take::<ANY, FEW, false, _>(cpu, met, search, accept)
+            let corners = View::<FEW, C>::new(cpu, ray).points(&b.points);
+            let met = Corners::meet(cpu, ray, b.block(), corners, search.range());
+            leaf.take::<ANY, FEW, 3, _>(cpu, met, search, accept)
         }
         _ => cpu.call(OtherLeaf::<ANY, A> { leaf, ray, search, accept }),
     }
@@ -49,25 +50,26 @@ impl<const ANY: bool, A: Accept> Task for OtherLeaf<'_, ANY, A> {
     #[inline(always)]
     fn run<C: Cpu>(self, cpu: C) -> bool {
         let Self { leaf, ray, search, accept } = self;
-        let (tree, block, t_max) = (leaf.tree, leaf.block, search.t_max());
+        let (tree, block) = (leaf.tree, leaf.block);
         match leaf.kind {
             Kind::Quads => {
                 let b = &tree.quads[block];
-                let met = Corners::<LANES, true, C>::meet(cpu, ray, b.load(cpu), (b.size, 0.0), b.used, t_max);
-                leaf.take::<ANY, LANES, true, _>(cpu, met, search, accept)
+                let corners = View::<LANES, C>::new(cpu, ray).quad(&b.points);
+                let met = Corners::meet(cpu, ray, b.block(), corners, search.range());
+                leaf.take::<ANY, LANES, 4, _>(cpu, met, search, accept)
             }
             Kind::Spheres => {
                 let b = &tree.spheres[block];
                 let center = each(|axis| Simd::<LANES>::load(cpu, &b.center[axis]));
                 let radius = Simd::<LANES>::load(cpu, &b.radius);
-                let met = meets_spheres::<LANES, C>(cpu, ray, (center, radius), b.used, t_max);
+                let met = meets_spheres::<LANES, C>(cpu, ray, (center, radius), b.used, search.t_max());
                 leaf.test::<ANY>(met, search, accept)
             }
             Kind::Moving => {
                 let (b, time) = (&tree.moving[block], search.ray.time);
-                let points = b.load(cpu, time);
-                let met = Corners::<FEW, false, C>::meet(cpu, ray, points, (b.size, b.reach), b.used_at(time), t_max);
-                leaf.take::<ANY, FEW, false, _>(cpu, met, search, accept)
+                let corners = View::<FEW, C>::new(cpu, ray).points(&b.points_at(time));
+                let met = Corners::meet(cpu, ray, b.block_at(time), corners, search.range());
+                leaf.take::<ANY, FEW, 3, _>(cpu, met, search, accept)
             }
             Kind::Instance => test_instance::<ANY>(tree, block, search, accept),
             Kind::Triangles | Kind::FewTriangles | Kind::Nothing => false,
@@ -85,10 +87,10 @@ struct Leaf<'a> {
 impl Leaf<'_> {
     /// Notes certain hits, and tests what may be hit.
     #[inline(always)]
-    fn take<const ANY: bool, const N: usize, const QUAD: bool, S: Simd<N>>(
+    fn take<const ANY: bool, const N: usize, const M: usize, S: Simd<N>>(
         &self,
         s: S,
-        met: Option<Corners<N, QUAD, S>>,
+        met: Option<Corners<N, M, S>>,
         search: &mut Search,
         accept: &impl Accept,
     ) -> bool {
@@ -98,7 +100,7 @@ impl Leaf<'_> {
         if !accept_everything(accept) {
             return self.test::<ANY>(corners.met, search, accept);
         }
-        let certain = corners.certain(s, search.t_min(), search.t_max());
+        let certain = corners.certain(s, search.t_max());
         if ANY {
             return certain != 0 || self.test::<ANY>(corners.met, search, accept);
         }

@@ -1,8 +1,11 @@
 //! The walk of a ray through the tree, written once for every kind of processor.
 
+mod flight;
 mod leaf;
 mod list;
 mod stack;
+
+pub(crate) use flight::Flight;
 
 use crate::bvh::Bvh;
 use crate::filter::{BoxLanes, FilterRay};

@@ -3,10 +3,10 @@
 
 use glam::Vec3;
 
-use crate::filter::each;
+use crate::filter::Block;
 use crate::instance::Instance;
 use crate::shape::{MovingTriangle, Primitive, Quad, Sphere, Triangle};
-use crate::simd::{LANES, Simd};
+use crate::simd::LANES;
 
 /// Lanes of the blocks that are shorter than a node.
 pub(crate) const FEW: usize = 4;
@@ -18,7 +18,7 @@ type Points<const N: usize> = [[[f32; N]; 3]; 3];
 #[derive(Clone, Debug)]
 #[repr(C)]
 pub(crate) struct CornerBlock<const N: usize> {
-    points: Points<N>,
+    pub(crate) points: Points<N>,
     pub(crate) id: [u32; N],
     /// The longest side of the box around all of them.
     pub(crate) size: f32,
@@ -42,9 +42,10 @@ impl<const N: usize> CornerBlock<N> {
         block
     }
 
+    /// What holds for all of them.
     #[inline(always)]
-    pub(crate) fn load<S: Simd<N>>(&self, s: S) -> [[S::F32; 3]; 3] {
-        each(|point| each(|axis| s.load(&self.points[point][axis])))
+    pub(crate) fn block(&self) -> Block {
+        Block { used: self.used, size: self.size, error: 0.0 }
     }
 
     #[inline]
@@ -139,20 +140,25 @@ impl MovingBlock {
 
     /// Bit i: lane i exists at this time.
     #[inline]
-    pub(crate) fn used_at(&self, time: f32) -> u32 {
+    fn used_at(&self, time: f32) -> u32 {
         (0..FEW).map(|i| u32::from(self.time[i][0] <= time && time <= self.time[i][1]) << i).sum::<u32>() & self.used
     }
 
-    /// The vertices at this time, each off by roundings of [`reach`](Self::reach).
-    #[inline]
-    pub(crate) fn load<S: Simd<FEW>>(&self, s: S, time: f32) -> [[S::F32; 3]; 3] {
-        let share: [f32; FEW] = self.time.map(|[start, end]| MovingTriangle::share(start, end, time) as f32);
-        each(|point| {
-            each(|axis| {
-                let (start, end) = (s.load(&self.points[0][point][axis]), s.load(&self.points[1][point][axis]));
-                s.mul_add(s.load(&share), s.sub(end, start), start)
+    /// The vertices at a time.
+    pub(crate) fn points_at(&self, time: f32) -> Points<FEW> {
+        let share = self.time.map(|[start, end]| MovingTriangle::share(start, end, time) as f32);
+        let [from, to] = &self.points;
+        std::array::from_fn(|point| {
+            std::array::from_fn(|axis| {
+                let (from, to) = (&from[point][axis], &to[point][axis]);
+                std::array::from_fn(|lane| from[lane] + (to[lane] - from[lane]) * share[lane])
             })
         })
+    }
+
+    /// What holds for all of them at a time.
+    pub(crate) fn block_at(&self, time: f32) -> Block {
+        Block { used: self.used_at(time), size: self.size, error: self.reach }
     }
 
     #[inline]
