@@ -99,6 +99,6 @@ impl Instance {
     pub(crate) fn to_object(&self, ray: &RayF64) -> Option<RayF64> {
         let to_object = self.to_world(ray.time)?.inverse();
         let local = RayF64::new(to_object.transform_point3(ray.o), to_object.transform_vector3(ray.d), ray.time);
-        (local.o.is_finite() && local.d.is_finite() && local.d_max > 0.0).then_some(local)
+        (local.o.is_finite() && local.d.is_finite() && local.d != DVec3::ZERO).then_some(local)
     }
 }

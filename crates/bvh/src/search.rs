@@ -144,7 +144,7 @@ impl Search {
     }
 
     /// Of hits at the same distance, that of the lowest index counts.
-    #[inline(never)]
+    #[inline(always)]
     fn test_now(&mut self, tree: &Tree, slot: Slot, accept: &impl Accept) {
         let (kind, block, lane) = slot.unpack();
         let hit = tree.intersect(kind, block, lane, &self.ray);

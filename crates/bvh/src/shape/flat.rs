@@ -10,7 +10,7 @@
 
 use glam::{DVec2, DVec3};
 
-use crate::ray::{ORDERS, PrimHit, RayF64, longest};
+use crate::ray::{PrimHit, RayF64};
 
 /// A vertex in the space of the ray: across it, and along the axis that is nearest to its direction.
 #[derive(Clone, Copy)]
@@ -22,17 +22,15 @@ struct Vertex {
 /// The vertices in the space of the ray, and the distance at which the ray has moved by 1 along its axis.
 #[inline(always)]
 fn project<const N: usize>(vertices: [DVec3; N], ray: &RayF64) -> ([Vertex; N], f64) {
-    // The axes in order, the longest of the direction last: shears are at most 1.
-    let [x, y, z] = ORDERS[longest(ray.d.abs().to_array())];
-    let (o, d) = (ray.o.to_array(), ray.d.to_array());
-    let along_inv = 1.0 / d[z];
-    let shear = DVec2::new(d[x], d[y]) * along_inv;
+    // The axis of the largest component is the last: shears are at most 1.
+    let [x, y, z] = ray.order;
+    let (o, shear) = (ray.o.to_array(), DVec2::from_array(ray.shear));
     let vertex = |p: DVec3| {
         let p = p.to_array();
         let along = p[z] - o[z];
         Vertex { across: DVec2::new(p[x] - o[x], p[y] - o[y]) - shear * along, along }
     };
-    (vertices.map(vertex), along_inv)
+    (vertices.map(vertex), ray.along_inv)
 }
 
 /// Twice the area that the origin and an edge span, positive if the origin is to its left.

@@ -18,7 +18,7 @@ pub struct Triangle {
 }
 
 impl Triangle {
-    #[inline]
+    #[inline(always)]
     pub(crate) fn vertices(&self) -> [DVec3; 3] {
         [self.a.as_dvec3(), self.b.as_dvec3(), self.c.as_dvec3()]
     }
@@ -37,7 +37,7 @@ impl Triangle {
         Aabb::around(self.vertices())
     }
 
-    #[inline]
+    #[inline(always)]
     pub(crate) fn intersect(&self, ray: &RayF64) -> Option<PrimHit> {
         flat::intersect_triangle(self.vertices(), ray)
     }
