@@ -28,23 +28,24 @@ pub(crate) struct Walk<'a, const ANY: bool, A> {
 
 impl<const ANY: bool, A: Accept> Walk<'_, ANY, A> {
     #[inline(always)]
-    pub(crate) fn search(self) -> bool {
+    pub(crate) fn search(mut self) -> bool {
         if self.bvh.is_list {
             return list::test_all::<ANY>(&self.bvh.tree, self.search, self.accept);
         }
-        self.bvh.cpu.call(self)
+        self.bvh.cpu.call(&mut self)
     }
 }
 
-impl<const ANY: bool, A: Accept> Task for Walk<'_, ANY, A> {
+/// By reference: that is what is passed in any case, and fields are read when they are needed.
+impl<const ANY: bool, A: Accept> Task for &mut Walk<'_, ANY, A> {
     type Output = bool;
 
     /// Visits what the ray may meet, near things first.
     #[inline(always)]
     fn run<C: Cpu>(self, cpu: C) -> bool {
-        let Self { bvh, ray, o_error, search, accept } = self;
+        let (bvh, accept, search) = (self.bvh, self.accept, &mut *self.search);
         let tree = &bvh.tree;
-        let ray = FilterRay::new(ray, o_error);
+        let ray = FilterRay::new(self.ray, self.o_error);
         let mut next = tree.root;
         let boxes = match next.target() {
             Target::Node(_) => BoxLanes::new(cpu, &ray, bvh.reach),
