@@ -12,8 +12,8 @@ use crate::search::{Accept, Everything, Search, Where};
 use crate::shape::Surface;
 use crate::simd::{Isa, Processor};
 use crate::stats::Stats;
-use crate::traverse::{Flight, Walk};
-use crate::wide::{Child, Tree};
+use crate::traverse::{FewSpheres, Flight, Walk};
+use crate::wide::{Child, Kind, SphereBlock, Target, Tree};
 
 /// Primitives sorted for rays.
 #[derive(Clone, Debug)]
@@ -122,6 +122,9 @@ impl Bvh {
     /// A ray whose numbers are not finite hits nothing or something, but ends.
     #[inline]
     pub fn intersect(&self, ray: &Ray) -> Option<Hit> {
+        if let Some((block, index)) = self.few_spheres() {
+            return self.cpu.call(FewSpheres::<false> { block, index, ray });
+        }
         let mut search = Search::new(ray);
         self.search::<false>(ray, &mut search, &Everything);
         search.hit()
@@ -141,13 +144,25 @@ impl Bvh {
     /// Whether anything is hit with 0 < t ≤ `t_max`: as [`intersect`](Self::intersect) finds it, in less time.
     #[inline]
     pub fn occluded(&self, ray: &Ray) -> bool {
-        self.search::<true>(ray, &mut Search::new(ray), &Everything)
+        match self.few_spheres() {
+            Some((block, index)) => self.cpu.call(FewSpheres::<true> { block, index, ray }).is_some(),
+            None => self.search::<true>(ray, &mut Search::new(ray), &Everything),
+        }
     }
 
     /// As [`occluded`](Self::occluded), but only those hits count that `accept` returns true for.
     #[inline]
     pub fn occluded_where(&self, ray: &Ray, accept: impl Fn(&Hit) -> bool) -> bool {
         self.search::<true>(ray, &mut Search::new(ray), &Where(accept))
+    }
+
+    /// The only block, if it is one of spheres.
+    #[inline(always)]
+    fn few_spheres(&self) -> Option<(&SphereBlock, usize)> {
+        match self.tree.root.target() {
+            Target::Leaf(Kind::Spheres, index) if !self.is_list => Some((&self.tree.spheres[index], index)),
+            _ => None,
+        }
     }
 
     #[inline(always)]

@@ -1,19 +1,19 @@
 //! Spheres: how far the ray's line passes from the centre.
 
-use crate::filter::{FilterRay, ROUNDING, UNDERFLOW, dot, largest, sub3};
+use crate::filter::{FilterRay, ROUNDING, UNDERFLOW, dot, each, largest, sub3};
 use crate::simd::Simd;
+use crate::wide::SphereBlock;
 
-/// Bit i: the ray may meet sphere i of `used` before `t_max`.
+/// Bit i: the ray may meet sphere i before `t_max`.
 #[inline(always)]
 pub(crate) fn meets_spheres<const N: usize, S: Simd<N>>(
     s: S,
     ray: &FilterRay,
-    (center, radius): ([S::F32; 3], S::F32),
-    used: u32,
+    block: &SphereBlock<N>,
     t_max: f32,
 ) -> u32 {
-    let d = ray.d(s);
-    let to_center = sub3(s, center, ray.o(s));
+    let (d, radius) = (ray.d(s), s.load(&block.radius));
+    let to_center = sub3(s, each(|axis| s.load(&block.center[axis])), ray.o(s));
     let r_sq = s.mul(radius, radius);
     let d_sq = dot(s, d, d);
     let along = dot(s, to_center, d);
@@ -23,7 +23,7 @@ pub(crate) fn meets_spheres<const N: usize, S: Simd<N>>(
     let slack = s.mul_add(s.mul(reach, reach), s.splat(3.0 * ROUNDING), s.splat(UNDERFLOW));
     let off_axis = s.mul_sub(distance_sq, d_sq, s.mul(along, along));
     let widest = s.mul_add(s.add(r_sq, slack), d_sq, s.splat(UNDERFLOW));
-    let met = used & s.bits(s.not_gt(off_axis, widest));
+    let met = block.used & s.bits(s.not_gt(off_axis, widest));
     if met == 0 {
         return 0;
     }

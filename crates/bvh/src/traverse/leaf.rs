@@ -1,6 +1,6 @@
 //! Leaves: many primitives at once roughly, those that may be met exactly.
 
-use crate::filter::{Corners, FilterRay, View, each, meets_spheres};
+use crate::filter::{Corners, FilterRay, View, meets_spheres};
 use crate::search::{Accept, Search, Slot};
 use crate::simd::{Cpu, LANES, Simd, Task};
 use crate::traverse::Walk;
@@ -59,10 +59,7 @@ impl<const ANY: bool, A: Accept> Task for OtherLeaf<'_, ANY, A> {
                 leaf.take::<ANY, LANES, 4, _>(cpu, met, search, accept)
             }
             Kind::Spheres => {
-                let b = &tree.spheres[block];
-                let center = each(|axis| Simd::<LANES>::load(cpu, &b.center[axis]));
-                let radius = Simd::<LANES>::load(cpu, &b.radius);
-                let met = meets_spheres::<LANES, C>(cpu, ray, (center, radius), b.used, search.t_max());
+                let met = meets_spheres::<LANES, C>(cpu, ray, &tree.spheres[block], search.t_max());
                 leaf.test::<ANY>(met, search, accept)
             }
             Kind::Moving => {

@@ -1,10 +1,12 @@
 //! The walk of a ray through the tree, written once for every kind of processor.
 
+mod few;
 mod flight;
 mod leaf;
 mod list;
 mod stack;
 
+pub(crate) use few::FewSpheres;
 pub(crate) use flight::Flight;
 
 use crate::bvh::Bvh;

@@ -75,10 +75,10 @@ fn points_of<const N: usize>(points: &Points<N>, lane: usize) -> [Vec3; 3] {
 /// Spheres.
 #[derive(Clone, Debug)]
 #[repr(C)]
-pub(crate) struct SphereBlock {
-    pub(crate) center: [[f32; LANES]; 3],
-    pub(crate) radius: [f32; LANES],
-    pub(crate) id: [u32; LANES],
+pub(crate) struct SphereBlock<const N: usize = LANES> {
+    pub(crate) center: [[f32; N]; 3],
+    pub(crate) radius: [f32; N],
+    pub(crate) id: [u32; N],
     /// Bit i: lane i is in use.
     pub(crate) used: u32,
 }
