@@ -2,7 +2,7 @@
 
 EMBREE_VERSION = 4.4.0.post1
 
-.PHONY: test test-nightly test-arm memcheck miri fuzz bench bench-kernel figures pictures schema
+.PHONY: test test-nightly test-arm memcheck fuzz bench bench-kernel figures pictures schema
 
 # Everything that can be checked: format, lints, tests, examples in the documentation, and that it builds.
 test:
@@ -40,10 +40,6 @@ memcheck:
 	else \
 		echo "memcheck: SKIPPED. It needs valgrind."; \
 	fi
-
-# The same under Miri, which knows Rust's rules, too (a nightly compiler with the component miri; minutes).
-miri:
-	MIRIFLAGS=-Zmiri-disable-isolation cargo +nightly miri test --locked -p eyebeam-bvh --test memory
 
 # Random bytes as shapes and rays, for five minutes (a nightly compiler and `cargo install cargo-fuzz`).
 fuzz:
