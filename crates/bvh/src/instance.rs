@@ -96,7 +96,7 @@ impl Instance {
 
     /// The ray in the object's space, if the instance exists then and its transform can be undone.
     #[inline]
-    pub(crate) fn to_object(&self, ray: &RayF64) -> Option<RayF64> {
+    pub(crate) fn ray_in_object(&self, ray: &RayF64) -> Option<RayF64> {
         let to_object = self.to_world(ray.time)?.inverse();
         let local = RayF64::new(to_object.transform_point3(ray.o), to_object.transform_vector3(ray.d), ray.time);
         (local.o.is_finite() && local.d.is_finite() && local.d != DVec3::ZERO).then_some(local)

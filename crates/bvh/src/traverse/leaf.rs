@@ -152,7 +152,7 @@ pub(super) fn test_instance<const ANY: bool>(
     let Some(entry) = search.ray.enters(instance.bounds(object)) else {
         return false;
     };
-    let Some(ray) = instance.to_object(&search.ray) else {
+    let Some(ray) = instance.ray_in_object(&search.ray) else {
         return false;
     };
     let Some(mut inner) = search.enter(ray, tree.instances[block].id, entry as f32) else {
