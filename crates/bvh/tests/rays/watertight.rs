@@ -27,7 +27,7 @@ fn quads(half: Vec3) -> Vec<Quad> {
 }
 
 /// The octahedron, each triangle cut in four `levels` times, on the unit sphere; then stretched.
-fn icosphere(levels: u32, stretch: Vec3) -> Vec<[Vec3; 3]> {
+pub(crate) fn icosphere(levels: u32, stretch: Vec3) -> Vec<[Vec3; 3]> {
     let mut triangles: Vec<[Vec3; 3]> = Vec::new();
     for signs in 0..8 {
         let sign = |axis: usize| if signs >> axis & 1 == 0 { 1.0 } else { -1.0 };
