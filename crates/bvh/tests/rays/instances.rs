@@ -193,6 +193,7 @@ fn a_million_instances() {
     let at = |i: usize| Affine::from_translation(Vec3::new((i % SIDE) as f32, 0.0, (i / SIDE) as f32));
     let scene = Scene { shapes: (0..SIDE * SIDE).map(|i| instance(0, at(i))).collect(), objects: vec![object] };
     let bvh = scene.tree(Quality::Fast, Isa::detect());
+    println!("{:?}", bvh.stats());
     assert!(bvh.stats().bytes / scene.shapes.len() < 250, "{:?}", bvh.stats());
     let mut r = Random::new(43);
     for _ in 0..1000 {
