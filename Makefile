@@ -47,7 +47,7 @@ miri:
 
 # Random bytes as shapes and rays, for five minutes (a nightly compiler and `cargo install cargo-fuzz`).
 fuzz:
-	cargo +nightly fuzz run kernel -- -max_total_time=300 -timeout=10 -max_len=512 -len_control=0
+	cargo +nightly fuzz run kernel -- -max_total_time=300 -timeout=10 -max_len=1024 -len_control=0
 
 # Speed, and the comparison with a textbook program (docs/performance.md).
 bench:

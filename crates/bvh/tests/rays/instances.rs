@@ -28,7 +28,7 @@ pub(crate) fn mesh(triangles: &[[Vec3; 3]]) -> Vec<Primitive> {
 #[test]
 fn trees_of_instances_find_what_lists_find() {
     let mut r = Random::new(40);
-    for depth in [1, 1, 1, 2, 2, 3].into_iter().cycle().take(60) {
+    for depth in [1, 1, 1, 2, 2, 3].into_iter().cycle().take(30) {
         let scene = Scene::random(depth, false, &mut r);
         let rays = rays(&scene, &[0.0], 400, &mut r);
         let hits = assert_same_as_list("random", &scene, &rays);
@@ -55,6 +55,30 @@ fn one_object_many_times() {
         let rays = rays(&scene, &[0.0], 300, &mut r);
         assert!(assert_same_as_list("copies", &scene, &rays) > 50);
     }
+}
+
+/// From a millionth to a million times the size, near and far, one in another; objects of one primitive and of many.
+#[test]
+fn scales_and_distances_of_every_size() {
+    let mut r = Random::new(45);
+    let scales = [1e-6, 1e-3, 1.0, 1e3, 1e6];
+    let mut hits = 0;
+    for n in [1, 2, 40].into_iter().cycle().take(60) {
+        let mut show = |count: usize, object: Scene| {
+            let shapes = (0..count).map(|_| {
+                let (at, scale, far) = (transform(&mut r), r.pick(&scales), r.pick(&[0.0, 1.0, 1e3, 1e6]));
+                instance(0, Affine { axes: at.axes.map(|axis| axis.normalize() * scale), offset: r.in_cube() * far })
+            });
+            Scene { shapes: shapes.collect(), objects: vec![object] }
+        };
+        let mut plain = Random::new(n as u64);
+        let object = Scene::of((0..n).map(|_| plain.shape(Vec3::ZERO, 1.0)).collect());
+        let inner = show(3, object);
+        let scene = show(8, inner);
+        let rays = rays(&scene, &[0.0], 300, &mut r);
+        hits += assert_same_as_list("scales", &scene, &rays);
+    }
+    assert!(hits > 60 * 300 / 10, "{hits}");
 }
 
 /// At the same distance, the first path counts, however deep.
@@ -193,7 +217,6 @@ fn a_million_instances() {
     let at = |i: usize| Affine::from_translation(Vec3::new((i % SIDE) as f32, 0.0, (i / SIDE) as f32));
     let scene = Scene { shapes: (0..SIDE * SIDE).map(|i| instance(0, at(i))).collect(), objects: vec![object] };
     let bvh = scene.tree(Quality::Fast, Isa::detect());
-    println!("{:?}", bvh.stats());
     assert!(bvh.stats().bytes / scene.shapes.len() < 250, "{:?}", bvh.stats());
     let mut r = Random::new(43);
     for _ in 0..1000 {
