@@ -39,8 +39,8 @@ impl Bvh {
 
     /// Builds the tree, in O(n log n), in rayon's current pool of threads. The tree does not depend on how many these are.
     ///
-    /// What nothing can hit is left out and counted ([`Stats::degenerate`](Stats)): primitives without area or radius, times that
-    /// end before they begin, instances of empty objects, and transforms that flatten. Indices are not changed by that. A list
+    /// What nothing can hit is left out and counted ([`Stats::degenerate`]): primitives without area or radius, times that end
+    /// before they begin, instances of empty objects, and transforms that flatten. Indices are not changed by that. A list
     /// without primitives is allowed.
     ///
     /// # Errors
@@ -58,7 +58,7 @@ impl Bvh {
     }
 
     /// Moves the primitives to where `geometry` has them now, in O(n), in rayon's current pool; the hits are those of a new
-    /// tree. The more they move relative to one another, the slower rays become: compare [`Stats::sah_cost`](Stats). If there is
+    /// tree. The more they move relative to one another, the slower rays become: compare [`Stats::sah_cost`]. If there is
     /// another number of them, or some have become degenerate or another shape, the tree is built anew, as
     /// [`Quality::Balanced`]. For a while there are two trees in memory.
     ///

@@ -118,8 +118,8 @@
 //!
 //! - **Hits are a property of the primitives and the ray.** They are the same bits with every [`Quality`], every [`Isa`], any
 //!   number of threads, one by one and in batches, after [`refit`](Bvh::refit), and without a tree ([`Bvh::list`]).
-//! - **Distances** are computed in double precision, and rounded once. Of hits at the same rounded distance, the one of the lowest
-//!   index counts: first that in the outermost list, then that within the instance, and so on.
+//! - **Distances** are computed in double precision, and rounded once. Of hits at the same rounded distance, the one of the
+//!   lowest index counts: first that in the outermost list, then that within the instance, and so on.
 //! - **Closed meshes are closed.** Triangles that share two vertices, bit by bit, leave no gap at their edge, from wherever
 //!   they are seen, however thin they are; nor do triangles that move, if the shared vertices and times are the same, nor
 //!   those of one object within an instance. The two halves of a quad are such triangles.
@@ -134,8 +134,10 @@
 //!   edge but were given by other corners, spheres that touch.
 //! - A ray that begins on a surface, as far as single precision can tell, may hit this surface again just ahead, or not.
 //!   Whoever wants neither lets rays begin a little off it, or rejects the primitive.
-//! - A triangle that is seen exactly edge-on, as a line, is not hit. One that is seen nearly so is hit at a distance between those
-//!   of its vertices, and its `u` and `v` are in 0..1, but where in between may be anybody's guess.
+//! - Triangles without area are left out. A mesh that needs one to be closed, where a vertex lies on the edge of another
+//!   triangle, may have a gap there, a rounding of double precision wide.
+//! - A triangle that is seen exactly edge-on, as a line, is not hit. One that is seen nearly so is hit at a distance between
+//!   those of its vertices, and its `u` and `v` are in 0..=1, but where in between may be anybody's guess.
 //! - Of a sphere there is one hit: where the ray enters or, from inside, where it leaves. If a callback rejects that, the ray
 //!   passes the sphere.
 //! - How often, for which hits and in which order callbacks are asked differs between trees.

@@ -7,8 +7,8 @@ use crate::search::Slot;
 
 /// A half line from `o` along `d`, looked at for `0 < t <= t_max`.
 ///
-/// `d` may have any length from 1e-18 to 1e18, and not be zero; `t` counts in multiples of it. Within instances the same holds for
-/// the transformed direction. With other numbers, rays end, but what they hit is not specified.
+/// `d` may have any length from 1e-18 to 1e18, and not be zero; `t` counts in multiples of it. Within instances the same holds
+/// for the transformed direction. With other numbers, rays end, but what they hit is not specified.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Ray {
     /// Origin.
