@@ -83,10 +83,7 @@ impl Instance {
 
     /// Whether it shows nothing: at the beginning or at the end, the transform flattens the object or cannot be undone.
     pub(crate) fn is_degenerate(&self) -> bool {
-        self.at.iter().any(|at| {
-            let determinant = at.as_daffine3().matrix3.determinant();
-            !determinant.recip().is_finite()
-        }) || self.time[0] > self.time[1]
+        self.at.iter().any(|at| is_flat(&at.as_daffine3().matrix3)) || self.time[0] > self.time[1]
     }
 
     /// The box around the object at all times: points move on straight lines, so two times tell.
@@ -104,8 +101,22 @@ impl Instance {
     /// The ray in the object's space, if the instance exists then and its transform can be undone.
     #[inline]
     pub(crate) fn to_object(self, ray: &RayF64) -> Option<RayF64> {
-        let to_object = self.to_world(ray.time)?.inverse();
+        let to_world = self.to_world(ray.time)?;
+        if self.at[0] != self.at[1] && is_flat(&to_world.matrix3) {
+            return None;
+        }
+        let to_object = to_world.inverse();
         let local = RayF64::new(to_object.transform_point3(ray.o), to_object.transform_vector3(ray.d), ray.time);
         (local.o.is_finite() && local.d.is_finite() && local.d_max > 0.0).then_some(local)
     }
+}
+
+/// Whether a matrix cannot be undone: its determinant is 0, or what rounding makes of that.
+fn is_flat(m: &DMat3) -> bool {
+    /// More than the roundings of the determinant's products lose, and far less than single precision tells from flat.
+    const ROUNDING: f64 = 1e-14;
+    let [x, y, z] = [m.x_axis.abs(), m.y_axis.abs(), m.z_axis.abs()];
+    let products = x.x * (y.y * z.z + y.z * z.y) + x.y * (y.z * z.x + y.x * z.z) + x.z * (y.x * z.y + y.y * z.x);
+    let determinant = m.determinant();
+    !(determinant.abs() > ROUNDING * products && determinant.recip().is_finite())
 }

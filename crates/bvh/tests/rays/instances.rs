@@ -143,6 +143,22 @@ fn what_cannot_be_seen_is_left_out() {
     }
 }
 
+/// Found by proptest: two axes are the same, and the determinant is not 0, for its products are rounded.
+#[test]
+fn what_is_flat_but_for_roundings_is_left_out() {
+    let x = Vec3::new(0.2, 0.2, 0.1);
+    let flat = Affine { axes: [x, Vec3::new(-0.079_279_07, -0.1, 0.0), x], offset: Vec3::ZERO };
+    let scene = Scene { shapes: vec![instance(0, flat)], objects: vec![Scene::of(vec![ball()])] };
+    assert_eq!(scene.list().stats().degenerate, 1);
+    // In the middle of its time.
+    let [mut from, mut to] = [flat; 2];
+    (from.axes[2].x, to.axes[2].x) = (2.0 * x.x, 0.0);
+    let moving = Instance { object: 0, at: [from, to], time: [0.0, 1.0] };
+    let scene = Scene { shapes: vec![Primitive::Instance(moving)], objects: vec![Scene::of(vec![ball()])] };
+    let ray = Ray { time: 0.5, ..Ray::new(3.0 * Vec3::Z, Vec3::NEG_Z) };
+    assert_eq!(assert_same_as_list("flat", &scene, &[ray, Ray { time: 0.0, ..ray }]), 1);
+}
+
 #[test]
 fn transforms_that_are_not_finite_are_refused() {
     for odd in [f32::NAN, f32::INFINITY, f32::NEG_INFINITY] {
