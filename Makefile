@@ -14,7 +14,7 @@ test:
 
 # The ray kernel at length: 10 million random rays on random scenes, 100 million at the edges of closed surfaces.
 test-nightly:
-	PROPTEST_CASES=110000 cargo test --release --locked -p eyebeam-bvh --test properties
+	PROPTEST_CASES=105000 cargo test --release --locked -p eyebeam-bvh --test properties
 	EYEBEAM_RAYS=100000000 cargo test --release --locked -p eyebeam-bvh --test rays no_ray_gets_through_an_edge
 
 # The ray kernel with the instructions of ARM, on an emulated processor. Without the tools it says so and ends well.
@@ -43,7 +43,7 @@ memcheck:
 
 # Random bytes as shapes and rays, for five minutes (a nightly compiler and `cargo install cargo-fuzz`).
 fuzz:
-	cargo +nightly fuzz run kernel -- -max_total_time=300 -timeout=10 -max_len=512 -len_control=0
+	cargo +nightly fuzz run kernel -- -max_total_time=300 -timeout=10 -max_len=1024 -len_control=0
 
 # Speed, and the comparison with a textbook program (docs/performance.md).
 bench:

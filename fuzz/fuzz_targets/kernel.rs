@@ -3,9 +3,13 @@
 
 #![no_main]
 
+use std::sync::Arc;
+
 use arbitrary::{Arbitrary, Result, Unstructured};
-use eyebeam_bvh::{Bvh, Hit, Isa, Primitive, Quad, Quality, Ray, Sphere, Triangle};
-use glam::Vec3;
+use eyebeam_bvh::{
+    Affine, Bvh, Geometry, Hit, Instance, Isa, MovingTriangle, Primitive, Quad, Quality, Ray, Sphere, Triangle,
+};
+use glam::{DVec3, Vec3};
 use libfuzzer_sys::fuzz_target;
 
 /// Mostly numbers that scenes are made of, sometimes any bits.
@@ -52,6 +56,26 @@ impl From<&Point> for Vec3 {
     }
 }
 
+/// A transform, mostly one of those that scenes are made of.
+#[derive(Arbitrary, Debug)]
+enum Transform {
+    Translation(Point),
+    Scale(Number, Point),
+    Any([Point; 4]),
+}
+
+impl From<&Transform> for Affine {
+    fn from(transform: &Transform) -> Self {
+        match transform {
+            Transform::Translation(offset) => Self::from_translation(offset.into()),
+            Transform::Scale(factor, offset) => {
+                Self { axes: Vec3::AXES.map(|axis| axis * factor.0), offset: offset.into() }
+            }
+            Transform::Any([x, y, z, offset]) => Self { axes: [x, y, z].map(Vec3::from), offset: offset.into() },
+        }
+    }
+}
+
 #[derive(Arbitrary, Debug)]
 enum Shape {
     Sphere(Point, Number),
@@ -59,6 +83,36 @@ enum Shape {
     Triangle(Point, Point, Point),
     /// As an earlier one.
     Again(u8),
+    Moving([Point; 3], [Point; 3], Option<[Number; 2]>),
+    Instance(u8, Transform, Option<(Transform, [Number; 2])>),
+}
+
+impl Shape {
+    /// After the shapes before it, where there are so many objects.
+    fn to_primitive(&self, shapes: &[Primitive], objects: u32) -> Option<Primitive> {
+        let triangle = |[a, b, c]: &[Point; 3]| Triangle { a: a.into(), b: b.into(), c: c.into() };
+        Some(match self {
+            Self::Sphere(center, radius) => Primitive::Sphere(Sphere { center: center.into(), radius: radius.0.abs() }),
+            Self::Quad(corner, u, v) => Primitive::Quad(Quad { corner: corner.into(), u: u.into(), v: v.into() }),
+            Self::Triangle(a, b, c) => Primitive::Triangle(Triangle { a: a.into(), b: b.into(), c: c.into() }),
+            Self::Again(index) => *shapes.get(usize::from(*index) % shapes.len().max(1))?,
+            Self::Moving(from, to, time) => {
+                let time = time.as_ref().map_or([0.0, 1.0], |time| time.each_ref().map(|x| x.0));
+                Primitive::MovingTriangle(MovingTriangle { at: [triangle(from), triangle(to)], time })
+            }
+            Self::Instance(object, at, motion) => {
+                let object = u32::from(*object).checked_rem(objects)?;
+                let instance = Instance::new(object, at.into());
+                Primitive::Instance(match motion {
+                    None => instance,
+                    Some((to, time)) => {
+                        let (at, time) = ([at.into(), to.into()], time.each_ref().map(|x| x.0));
+                        Instance { at, time, ..instance }
+                    }
+                })
+            }
+        })
+    }
 }
 
 #[derive(Arbitrary, Debug)]
@@ -72,25 +126,44 @@ struct Aim {
 
 #[derive(Arbitrary, Debug)]
 struct Input {
+    /// Each may show those before it.
+    objects: Vec<Vec<Shape>>,
     shapes: Vec<Shape>,
     aims: Vec<Aim>,
 }
 
+/// Shapes, and what the instances among them show.
+struct Scene<'a> {
+    shapes: &'a [Primitive],
+    objects: &'a [Arc<Bvh>],
+}
+
+impl Geometry for Scene<'_> {
+    fn len(&self) -> usize {
+        self.shapes.len()
+    }
+
+    fn primitive(&self, index: usize) -> Primitive {
+        self.shapes[index]
+    }
+
+    fn objects(&self) -> &[Arc<Bvh>] {
+        self.objects
+    }
+}
+
 impl Input {
-    fn shapes(&self) -> Vec<Primitive> {
-        let mut shapes: Vec<Primitive> = Vec::new();
-        for shape in self.shapes.iter().take(100) {
-            shapes.push(match shape {
-                Shape::Sphere(center, radius) => {
-                    Primitive::Sphere(Sphere { center: center.into(), radius: radius.0.abs() })
-                }
-                Shape::Quad(corner, u, v) => Primitive::Quad(Quad { corner: corner.into(), u: u.into(), v: v.into() }),
-                Shape::Triangle(a, b, c) => Primitive::Triangle(Triangle { a: a.into(), b: b.into(), c: c.into() }),
-                Shape::Again(_) if shapes.is_empty() => continue,
-                Shape::Again(index) => shapes[usize::from(*index) % shapes.len()],
-            });
-        }
-        shapes
+    /// Those of the objects, each of which may show the ones before it, and at last those that are seen.
+    fn shapes(&self) -> Vec<Vec<Primitive>> {
+        let lists = self.objects.iter().take(4).chain([&self.shapes]);
+        let list = |(objects, list): (usize, &Vec<Shape>)| {
+            let mut shapes = Vec::new();
+            for shape in list.iter().take(100) {
+                shapes.extend(shape.to_primitive(&shapes, objects as u32));
+            }
+            shapes
+        };
+        lists.enumerate().map(list).collect()
     }
 
     fn rays(&self) -> Vec<Ray> {
@@ -103,55 +176,83 @@ impl Input {
     }
 }
 
-/// What a scene is made of: zero, or a size that squares and products of single precision hold.
-fn in_range(v: Vec3) -> bool {
-    v.abs().to_array().into_iter().all(|x| x == 0.0 || (LEAST..=MOST).contains(&x))
+/// Builds all that there is in one way; none if it cannot be.
+fn build(lists: &[Vec<Primitive>], build: impl Fn(&Scene) -> Option<Bvh>) -> Option<Bvh> {
+    let mut objects: Vec<Arc<Bvh>> = Vec::new();
+    for shapes in lists {
+        objects.push(Arc::new(build(&Scene { shapes, objects: &objects })?));
+    }
+    Arc::into_inner(objects.pop()?)
 }
 
 const LEAST: f32 = 1e-18;
 const MOST: f32 = 1e18;
 
+/// What a scene is made of: zero, or a size that squares and products of single precision hold.
+fn in_range(v: Vec3) -> bool {
+    v.abs().to_array().into_iter().all(|x| x == 0.0 || (LEAST..=MOST).contains(&x))
+}
+
 fn is_shape_in_range(shape: &Primitive) -> bool {
-    match *shape {
-        Primitive::Sphere(Sphere { center, radius }) => in_range(center) && (LEAST..=MOST).contains(&radius),
-        Primitive::Quad(Quad { corner, u, v }) => [corner, u, v].into_iter().all(in_range),
-        Primitive::Triangle(Triangle { a, b, c }) => [a, b, c].into_iter().all(in_range),
+    let is_triangle_in_range = |t: &Triangle| [t.a, t.b, t.c].into_iter().all(in_range);
+    match shape {
+        Primitive::Sphere(s) => in_range(s.center) && (LEAST..=MOST).contains(&s.radius),
+        Primitive::Quad(q) => [q.corner, q.u, q.v].into_iter().all(in_range),
+        Primitive::Triangle(t) => is_triangle_in_range(t),
+        Primitive::MovingTriangle(t) => t.at.iter().all(is_triangle_in_range),
+        Primitive::Instance(i) => i.at.iter().all(|at| in_range(at.offset) && at.axes.into_iter().all(in_range)),
     }
 }
 
-fn is_ray_in_range(ray: &Ray) -> bool {
-    let length = ray.d.as_dvec3().length();
-    in_range(ray.o) && (1e-18..=1e18).contains(&length) && ray.t_max >= 0.0 && (0.0..=1.0).contains(&ray.time)
+/// Whether a ray is in range in the space of `lists`' last list, and in those of all objects in it.
+fn is_ray_in_range(lists: &[Vec<Primitive>], o: DVec3, d: DVec3, time: f32) -> bool {
+    let Some(shapes) = lists.last() else { return true };
+    let range = f64::from(LEAST)..=f64::from(MOST);
+    let is_in_range = o.abs().max_element() <= f64::from(MOST) && range.contains(&d.length());
+    is_in_range
+        && shapes.iter().all(|shape| {
+            let Primitive::Instance(instance) = shape else { return true };
+            let Some(to_world) = instance.to_world(time) else { return true };
+            let to_object = to_world.inverse();
+            let (o, d) = (to_object.transform_point3(o), to_object.transform_vector3(d));
+            is_ray_in_range(&lists[..=instance.object as usize], o, d, time)
+        })
 }
 
-fn bits(hit: Option<Hit>) -> Option<[u32; 4]> {
-    hit.map(|h| [h.t.to_bits(), h.prim, h.u.to_bits(), h.v.to_bits()])
+type Bits = ([u32; 4], [u32; Hit::MAX_NESTING]);
+
+fn bits(hit: Option<Hit>) -> Option<Bits> {
+    hit.map(|h| ([h.t.to_bits(), h.prim, h.u.to_bits(), h.v.to_bits()], h.instances))
 }
 
 fuzz_target!(|input: Input| {
-    let (shapes, rays) = (input.shapes(), input.rays());
-    let Ok(list) = Bvh::list(&shapes) else { return };
-    let are_shapes_in_range = shapes.iter().all(is_shape_in_range);
-    for quality in Quality::ALL {
-        let tree = Bvh::build(&shapes, quality).expect("what one quality builds, all do");
-        for tree in [Isa::Scalar, Isa::detect()].map(|isa| tree.clone().with_isa(isa)) {
-            let (mut hits, mut occluded) = (vec![None; rays.len()], vec![false; rays.len()]);
-            tree.intersect_batch(&rays, &mut hits);
-            tree.occluded_batch(&rays, &mut occluded);
-            for (i, ray) in rays.iter().enumerate() {
-                let (hit, is_occluded) = (tree.intersect(ray), tree.occluded(ray));
-                if let Some(hit) = hit {
-                    assert!(hit.t.is_finite() && hit.t > 0.0, "{hit:?} of {ray:?}");
-                    assert!((hit.prim as usize) < shapes.len());
-                    tree.primitive(&hit);
-                }
-                if are_shapes_in_range && is_ray_in_range(ray) {
-                    let expected = bits(list.intersect(ray));
-                    assert_eq!(bits(hit), expected, "{quality}: {ray:?} {shapes:?}");
-                    assert_eq!(bits(hits[i]), expected, "{quality}, in a batch: {ray:?} {shapes:?}");
-                    assert_eq!(is_occluded, expected.is_some(), "{quality}, occluded: {ray:?} {shapes:?}");
-                    assert_eq!(occluded[i], expected.is_some(), "{quality}, occluded in a batch: {ray:?} {shapes:?}");
-                }
+    let (lists, rays) = (input.shapes(), input.rays());
+    let Some(list) = build(&lists, |scene| Bvh::list(scene).ok()) else { return };
+    let are_shapes_in_range = lists.iter().flatten().all(is_shape_in_range);
+    let is_in_range = |ray: &Ray| {
+        are_shapes_in_range
+            && (ray.t_max >= 0.0 && (0.0..=1.0).contains(&ray.time))
+            && is_ray_in_range(&lists, ray.o.as_dvec3(), ray.d.as_dvec3(), ray.time)
+    };
+    let expected: Vec<_> = rays.iter().map(|ray| is_in_range(ray).then(|| bits(list.intersect(ray)))).collect();
+    for (quality, isa) in Quality::ALL.into_iter().flat_map(|q| [Isa::Scalar, Isa::detect()].map(|isa| (q, isa))) {
+        let tree = build(&lists, |scene| Some(Bvh::build(scene, quality).ok()?.with_isa(isa)));
+        let tree = tree.expect("what one quality builds, all do");
+        let (mut hits, mut occluded) = (vec![None; rays.len()], vec![false; rays.len()]);
+        tree.intersect_batch(&rays, &mut hits);
+        tree.occluded_batch(&rays, &mut occluded);
+        for (i, ray) in rays.iter().enumerate() {
+            let (hit, is_occluded) = (tree.intersect(ray), tree.occluded(ray));
+            if let Some(hit) = hit {
+                assert!(hit.t.is_finite() && hit.t > 0.0, "{hit:?} of {ray:?}");
+                tree.surface(&hit, ray.time);
+                tree.to_world(&hit, ray.time);
+            }
+            if let Some(expected) = expected[i] {
+                assert_eq!(bits(hit), expected, "{quality}: {ray:?} {lists:?}");
+                assert_eq!(bits(hits[i]), expected, "{quality}, in a batch: {ray:?} {lists:?}");
+                assert_eq!(is_occluded, expected.is_some(), "{quality}, occluded: {ray:?} {lists:?}");
+                assert_eq!(occluded[i], expected.is_some(), "{quality}, occluded in a batch: {ray:?} {lists:?}");
             }
         }
     }

@@ -16,6 +16,9 @@ use crate::traverse::{FewSpheres, Flight, Walk};
 use crate::wide::{Child, Kind, SphereBlock, Target, Tree};
 
 /// Primitives sorted for rays.
+///
+/// It keeps its own copy of the primitives, and what the instances show alive. It can be read from many threads at once; to
+/// clone it copies everything but the objects. What holds for hits, and what does not, is told [here](crate#what-is-promised).
 #[derive(Clone, Debug)]
 pub struct Bvh {
     pub(crate) tree: Tree,
@@ -31,10 +34,14 @@ pub struct Bvh {
 }
 
 impl Bvh {
-    /// The most primitives that a tree holds.
+    /// The most primitives that a tree holds: 67 million. More are possible in several objects.
     pub const MAX_PRIMITIVES: usize = Child::MAX_BLOCKS;
 
-    /// Builds the tree, in O(n log n).
+    /// Builds the tree, in O(n log n), in rayon's current pool of threads. The tree does not depend on how many these are.
+    ///
+    /// What nothing can hit is left out and counted ([`Stats::degenerate`]): primitives without area or radius, times that end
+    /// before they begin, instances of empty objects, and transforms that flatten. Indices are not changed by that. A list
+    /// without primitives is allowed.
     ///
     /// # Errors
     /// Numbers that are not finite, more than [`MAX_PRIMITIVES`](Self::MAX_PRIMITIVES) primitives, instances of what is not
@@ -50,9 +57,12 @@ impl Bvh {
         Self { tree, bounds, stats, nesting, reach, cpu: Isa::detect().processor(), is_list: false }
     }
 
-    /// Moves the primitives to where `geometry` has them now, in O(n); the hits are those of a new tree. The more they move
-    /// relative to one another, the slower rays become. If there is another number of them, or some have become degenerate
-    /// or another shape, the tree is built anew.
+    /// Moves the primitives to where `geometry` has them now, in O(n), in rayon's current pool; the hits are those of a new
+    /// tree. The more they move relative to one another, the slower rays become: compare [`Stats::sah_cost`]. If there is
+    /// another number of them, or some have become degenerate or another shape, the tree is built anew, as
+    /// [`Quality::Balanced`]. For a while there are two trees in memory.
+    ///
+    /// A tree shows its objects as they were given to it. Where these have changed, it is refitted with the new ones, too.
     ///
     /// # Errors
     /// As for [`build`](Self::build); the tree is as it was then.
@@ -65,7 +75,8 @@ impl Bvh {
         Ok(())
     }
 
-    /// As [`build`](Self::build), but every ray tests every primitive: the same hits in time O(n), for comparison.
+    /// As [`build`](Self::build), but every ray tests every primitive: the same hits in time O(n), for comparison. Objects that
+    /// instances show are what they were built as.
     ///
     /// # Errors
     /// As for [`build`](Self::build).
@@ -73,7 +84,8 @@ impl Bvh {
         Ok(Self { is_list: true, ..Self::build(geometry, Quality::Balanced)? })
     }
 
-    /// The same tree, walked with other instructions: the same hits, for comparison. What the processor lacks is not used.
+    /// The same tree, walked with other instructions: the same hits, for comparison. What the processor lacks is not used. Of
+    /// objects that instances show, each keeps to its own.
     pub fn with_isa(self, isa: Isa) -> Self {
         Self { cpu: isa.processor(), ..self }
     }
@@ -83,15 +95,19 @@ impl Bvh {
         self.nesting
     }
 
-    /// The box around everything; empty if there is nothing.
+    /// The box around everything at all times; [empty](Aabb::EMPTY) if there is nothing. Wider than what is in it by a few
+    /// roundings, and around instances by what the box of their object leaves in the corners.
     pub fn bounds(&self) -> Aabb {
         self.bounds
     }
 
-    /// What was hit, in the space of the innermost object, at the time of the ray.
+    /// What was hit, in the space of the innermost object, at the `time` of the ray. The point is there at the hit's `u` and
+    /// `v`, for triangles and quads in double precision; [`to_world`](Self::to_world) takes it to the space of the ray.
+    ///
+    /// Takes O(log n) for each instance, otherwise O(1). The hit must be one of this tree since it was last refitted.
     ///
     /// # Panics
-    /// If the hit is one of another tree.
+    /// Maybe, if the hit is one of another tree; or the surface is another one.
     #[inline]
     pub fn surface(&self, hit: &Hit, time: f32) -> Surface {
         let (kind, block, lane) = hit.slot.unpack();
@@ -101,7 +117,8 @@ impl Bvh {
         surface.unwrap_or(Surface::Flat { corner: DVec3::ZERO, edges: [DVec3::ZERO; 2] })
     }
 
-    /// From the space of the primitive that was hit to that of the ray, at its time: the identity outside instances.
+    /// From the space of the primitive that was hit to that of the ray, at its `time`: the identity outside instances. For
+    /// normals, that is the transposed inverse of the matrix. Costs what [`surface`](Self::surface) does.
     pub fn to_world(&self, hit: &Hit, time: f32) -> DAffine3 {
         let transforms = self.instances(hit).map(|(instance, _)| instance.to_world(time).unwrap_or(DAffine3::IDENTITY));
         transforms.fold(DAffine3::IDENTITY, |outer, inner| outer * inner)
@@ -119,7 +136,8 @@ impl Bvh {
 
     /// The nearest hit with 0 < t ≤ `t_max`; of several at the same distance, the one of lowest index.
     ///
-    /// A ray whose numbers are not finite hits nothing or something, but ends.
+    /// About O(log n) for usual scenes, and O(n) at worst. A ray whose numbers are not finite hits nothing or something, but
+    /// ends.
     #[inline]
     pub fn intersect(&self, ray: &Ray) -> Option<Hit> {
         if let Some((block, index)) = self.few_spheres() {
@@ -133,7 +151,10 @@ impl Bvh {
     /// As [`intersect`](Self::intersect), but only those hits count that `accept` returns true for: alpha-tested leaves, say.
     ///
     /// It is asked at least once for the hit that is returned, and otherwise for some hits that lie in front of something or
-    /// behind; its answers must depend on the hit alone.
+    /// behind, in no certain order, for some more than once; its answers must depend on the hit alone. What is rejected is as
+    /// if it were not there. A primitive has one hit: a sphere that is rejected where the ray enters is passed.
+    ///
+    /// Takes longer than [`intersect`](Self::intersect), as every hit must be known exactly.
     #[inline]
     pub fn intersect_where(&self, ray: &Ray, accept: impl Fn(&Hit) -> bool) -> Option<Hit> {
         let mut search = Search::new(ray);
@@ -141,7 +162,7 @@ impl Bvh {
         search.hit()
     }
 
-    /// Whether anything is hit with 0 < t ≤ `t_max`: as [`intersect`](Self::intersect) finds it, in less time.
+    /// Whether anything is hit with 0 < t ≤ `t_max`: exactly if [`intersect`](Self::intersect) finds something, in less time.
     #[inline]
     pub fn occluded(&self, ray: &Ray) -> bool {
         match self.few_spheres() {
@@ -150,7 +171,8 @@ impl Bvh {
         }
     }
 
-    /// As [`occluded`](Self::occluded), but only those hits count that `accept` returns true for.
+    /// As [`occluded`](Self::occluded), but only those hits count that `accept` returns true for, under the conditions of
+    /// [`intersect_where`](Self::intersect_where).
     #[inline]
     pub fn occluded_where(&self, ray: &Ray, accept: impl Fn(&Hit) -> bool) -> bool {
         self.search::<true>(ray, &mut Search::new(ray), &Where(accept))
@@ -171,7 +193,8 @@ impl Bvh {
     }
 
     /// As [`intersect`](Self::intersect), for many rays that go different ways, such as those that surfaces have scattered:
-    /// several are in flight at a time, which is faster in large trees, and slower for rays that go together or in small trees.
+    /// `hits[i]` is what `rays[i]` finds. In large trees, several are in flight at a time: faster for such rays, and slower for
+    /// rays that go together. It runs on the thread that calls it.
     ///
     /// # Panics
     /// If there are fewer `hits` than `rays`.
@@ -184,7 +207,8 @@ impl Bvh {
         }
     }
 
-    /// As [`occluded`](Self::occluded), for many rays, as [`intersect_batch`](Self::intersect_batch).
+    /// As [`occluded`](Self::occluded), for many rays, as [`intersect_batch`](Self::intersect_batch): `occluded[i]` is true if
+    /// `rays[i]` hits anything.
     ///
     /// # Panics
     /// If there are fewer `occluded` than `rays`.
@@ -208,7 +232,7 @@ impl Bvh {
         !self.is_list && self.stats.bytes > NEAR
     }
 
-    /// What the tree is made of.
+    /// What the tree is made of, in O(1).
     pub fn stats(&self) -> Stats {
         self.stats
     }

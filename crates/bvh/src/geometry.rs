@@ -8,14 +8,16 @@ use crate::bvh::Bvh;
 use crate::shape::{Primitive, Triangle};
 
 /// A numbered list of primitives. The builder reads it, from many threads and more than once; the tree keeps what it needs.
+/// While a tree is built or refitted, the answers must not change: otherwise the tree is of no use, but safe.
 pub trait Geometry: Sync {
     /// The number of primitives.
     fn len(&self) -> usize;
 
-    /// The primitive of an index below [`len`](Self::len); the same each time.
+    /// The primitive of an index below [`len`](Self::len); the same each time. It is called several times for each primitive,
+    /// so it should cost little.
     fn primitive(&self, index: usize) -> Primitive;
 
-    /// What instances show: [`Instance::object`](crate::Instance::object) is an index into this list.
+    /// What instances show: [`Instance::object`](crate::Instance::object) is an index into this list. None by default.
     fn objects(&self) -> &[Arc<Bvh>] {
         &[]
     }
@@ -46,7 +48,7 @@ impl Geometry for Vec<Primitive> {
     }
 }
 
-/// Triangles that share vertices.
+/// Triangles that share vertices. An index is 32 bits; hits have the triangle's index.
 #[derive(Clone, Copy, Debug)]
 pub struct Mesh<'a> {
     /// Positions.

@@ -7,16 +7,18 @@ use crate::search::Slot;
 
 /// A half line from `o` along `d`, looked at for `0 < t <= t_max`.
 ///
-/// `d` may have any length from 1e-18 to 1e18; `t` counts in multiples of it.
+/// `d` may have any length from 1e-18 to 1e18, and not be zero; `t` counts in multiples of it. Within instances the same holds
+/// for the transformed direction. With other numbers, rays end, but what they hit is not specified.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Ray {
     /// Origin.
     pub o: Vec3,
     /// Direction; not zero.
     pub d: Vec3,
-    /// Hits farther than this do not count. Infinite by default.
+    /// Hits farther than this do not count, those at this distance do. Infinite by default; at 0 or below, nothing is hit.
     pub t_max: f32,
-    /// When it is traced, in the time of the motion keys: 0 at the first, 1 at the last. 0 by default.
+    /// When it is traced, in the time of the motion keys: usually 0 at the first, 1 at the last. 0 by default. Of no
+    /// importance where nothing moves.
     pub time: f32,
 }
 
@@ -37,17 +39,21 @@ pub(crate) fn longest<T: PartialOrd + Copy>(size: [T; 3]) -> usize {
     if size[0] > size[yz] { 0 } else { yz }
 }
 
-/// Where a ray met a primitive.
+/// Where a ray met a primitive. It stands for itself; [`Bvh::surface`](crate::Bvh::surface) makes sense of it only with the
+/// tree that it was found in.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Hit {
-    /// Distance along the ray, in multiples of its direction.
+    /// Distance along the ray, in multiples of its direction: above 0, finite. Rounded from double precision. Within an
+    /// instance, at least the distance at which the ray enters its box.
     pub t: f32,
     /// The primitive's index in the list that the tree was built from; if it was met through instances, in that of the
     /// innermost object.
     pub prim: u32,
-    /// First parameter of the point on the primitive: along `u` of a quad, weight of vertex `b` of a triangle, 0 on a sphere.
+    /// First parameter of the point on the primitive: along `u` of a quad, weight of vertex `b` of a triangle, 0 on a sphere. In
+    /// 0..=1, and the less accurate the more the primitive is seen edge-on.
     pub u: f32,
-    /// Second parameter: along `v` of a quad, weight of vertex `c` of a triangle, 0 on a sphere.
+    /// Second parameter: along `v` of a quad, weight of vertex `c` of a triangle, 0 on a sphere. In 0..=1; on triangles, `u + v`
+    /// exceeds 1 by a rounding at most.
     pub v: f32,
     /// Indices of the instances through which it was met, each in the list of the tree that holds it, the outermost first;
     /// [`NO_INSTANCE`](Self::NO_INSTANCE) from where there are no more.

@@ -1,11 +1,11 @@
 //! What a tree is made of.
 
-/// Counts and sizes of a tree, for comparison and for people.
+/// Counts and sizes of a tree, for comparison and for people. Objects that its instances show are not counted in.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Stats {
     /// Primitives that rays can hit.
     pub primitives: usize,
-    /// Primitives without area, which were left out.
+    /// Primitives that were left out, since nothing can hit them: without area, never there, or an instance of nothing.
     pub degenerate: usize,
     /// Inner nodes.
     pub nodes: usize,

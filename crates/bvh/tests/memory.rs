@@ -1,7 +1,7 @@
 //! A walk through all of the unsafe code in little time, for tools that watch every access to memory: `make memcheck`
 //! (valgrind), and processors that are emulated (`make test-arm`).
 
-use eyebeam_bvh::{Bvh, Isa, Primitive, Quad, Quality, Ray, Sphere, Triangle};
+use eyebeam_bvh::{Bvh, Isa, MovingTriangle, Primitive, Quad, Quality, Ray, Sphere, Triangle};
 use glam::Vec3;
 
 /// Tools are 30 (valgrind) to 1000 (Miri) times slower than the processor.
@@ -16,10 +16,14 @@ fn point(i: usize) -> Vec3 {
 
 fn shape(i: usize) -> Primitive {
     let (at, u, v) = (point(i), 0.1 * point(i + 7), 0.1 * point(i + 13));
-    match i % 3 {
+    match i % 4 {
         0 => Primitive::Sphere(Sphere { center: at, radius: 0.1 * u.length() + 1e-3 }),
         1 => Primitive::Quad(Quad { corner: at, u, v }),
-        _ => Primitive::Triangle(Triangle { a: at, b: at + u, c: at + v }),
+        2 => Primitive::Triangle(Triangle { a: at, b: at + u, c: at + v }),
+        _ => {
+            let triangle = |a: Vec3| Triangle { a, b: a + u, c: a + v };
+            Primitive::MovingTriangle(MovingTriangle { at: [triangle(at), triangle(at + v)], time: [0.0, 1.0] })
+        }
     }
 }
 
@@ -32,7 +36,7 @@ fn ray(i: usize, shapes: &[Primitive]) -> Ray {
         _ => point(i),
     };
     let t_max = if i.is_multiple_of(4) { 1.5 } else { f32::INFINITY };
-    Ray { t_max, ..Ray::new(o, d) }
+    Ray { t_max, time: (i % 5) as f32 / 4.0, ..Ray::new(o, d) }
 }
 
 /// Traces the rays in every way that there is.

@@ -2,7 +2,11 @@
 //!
 //! `PROPTEST_CASES` says how many scenes (of 32 rays each); the seed is fixed unless `PROPTEST_RNG_SEED` is set.
 
-use eyebeam_bvh::{Bvh, Hit, Isa, Primitive, Quad, Quality, Ray, Sphere, Triangle};
+use std::sync::Arc;
+
+use eyebeam_bvh::{
+    Affine, Bvh, Geometry, Hit, Instance, Isa, MovingTriangle, Primitive, Quad, Quality, Ray, Sphere, Triangle,
+};
 use glam::Vec3;
 use proptest::prelude::*;
 use proptest::test_runner::RngSeed;
@@ -33,11 +37,37 @@ fn point() -> impl Strategy<Value = Vec3> {
     [coordinate(), coordinate(), coordinate()].prop_map(Vec3::from_array)
 }
 
+fn triangle() -> impl Strategy<Value = Triangle> {
+    [point(), point(), point()].prop_map(|[a, b, c]| Triangle { a, b, c })
+}
+
+/// When what moves exists.
+fn times() -> impl Strategy<Value = [f32; 2]> {
+    prop::sample::select(vec![[0.0, 1.0], [0.0, 0.5], [0.5, 1.0], [0.25, 0.25]])
+}
+
+/// Some flatten.
+fn affine() -> impl Strategy<Value = Affine> {
+    let factor = || prop::sample::select(vec![1.0_f32, 1.0, -1.0, 0.1, -1e-3, 30.0]);
+    let diagonal = [factor(), factor(), factor()].prop_map(|[x, y, z]| [Vec3::X * x, Vec3::Y * y, Vec3::Z * z]);
+    let axes = prop_oneof![Just(Vec3::AXES), diagonal, [point(), point(), point()]];
+    (axes, point()).prop_map(|(axes, offset)| Affine { axes, offset })
+}
+
+/// Half of them move.
+fn instance() -> impl Strategy<Value = Primitive> {
+    let still = affine().prop_map(|at| Instance::new(0, at));
+    let moving = ([affine(), affine()], times()).prop_map(|(at, time)| Instance { object: 0, at, time });
+    prop_oneof![still, moving].prop_map(Primitive::Instance)
+}
+
 fn shape() -> impl Strategy<Value = Primitive> {
     prop_oneof![
         (point(), 1e-3_f32..2.0).prop_map(|(center, radius)| Primitive::Sphere(Sphere { center, radius })),
         (point(), point(), point()).prop_map(|(corner, u, v)| Primitive::Quad(Quad { corner, u, v })),
-        (point(), point(), point()).prop_map(|(a, b, c)| Primitive::Triangle(Triangle { a, b, c })),
+        triangle().prop_map(Primitive::Triangle),
+        ([triangle(), triangle()], times())
+            .prop_map(|(at, time)| { Primitive::MovingTriangle(MovingTriangle { at, time }) }),
         // Without area: a point, a line, a line twice.
         point().prop_map(|a| Primitive::Triangle(Triangle { a, b: a, c: a })),
         (point(), point(), -2_i8..=2).prop_map(|(corner, u, k)| Primitive::Quad(Quad {
@@ -52,6 +82,7 @@ fn scaled(shape: Primitive, size: f32, scale: f32) -> Primitive {
     let position = |p: Vec3| p * scale;
     // About its first point, by its size.
     let near = |p: Vec3, first: Vec3| (first + (p - first) * size) * scale;
+    let triangle = |Triangle { a, b, c }: Triangle| Triangle { a: position(a), b: near(b, a), c: near(c, a) };
     match shape {
         Primitive::Sphere(Sphere { center, radius }) => {
             Primitive::Sphere(Sphere { center: position(center), radius: radius * size * scale })
@@ -59,17 +90,19 @@ fn scaled(shape: Primitive, size: f32, scale: f32) -> Primitive {
         Primitive::Quad(Quad { corner, u, v }) => {
             Primitive::Quad(Quad { corner: position(corner), u: u * size * scale, v: v * size * scale })
         }
-        Primitive::Triangle(Triangle { a, b, c }) => {
-            Primitive::Triangle(Triangle { a: position(a), b: near(b, a), c: near(c, a) })
+        Primitive::Triangle(t) => Primitive::Triangle(triangle(t)),
+        Primitive::MovingTriangle(t) => Primitive::MovingTriangle(MovingTriangle { at: t.at.map(triangle), ..t }),
+        Primitive::Instance(i) => {
+            let at = i.at.map(|at| Affine { axes: at.axes.map(|axis| axis * size), offset: position(at.offset) });
+            Primitive::Instance(Instance { at, ..i })
         }
-        other => other,
     }
 }
 
 /// Some shapes of sizes that differ or do not, some of them more than once.
-fn shapes(scale: f32) -> impl Strategy<Value = Vec<Primitive>> {
+fn shapes(shape: impl Strategy<Value = Primitive>, scale: f32) -> impl Strategy<Value = Vec<Primitive>> {
     let size = prop::sample::select(vec![1.0_f32, 1.0, 0.1, 1e-3, 1e-6]);
-    let originals = prop::collection::vec((shape(), size), 0..20);
+    let originals = prop::collection::vec((shape, size), 0..20);
     (originals, prop::collection::vec(any::<prop::sample::Index>(), 0..6)).prop_map(move |(originals, again)| {
         let mut shapes: Vec<_> = originals.into_iter().map(|(shape, size)| scaled(shape, size, scale)).collect();
         if !shapes.is_empty() {
@@ -78,6 +111,69 @@ fn shapes(scale: f32) -> impl Strategy<Value = Vec<Primitive>> {
         }
         shapes
     })
+}
+
+/// Shapes, and what all instances among them show.
+#[derive(Clone, Debug)]
+struct Scene {
+    shapes: Vec<Primitive>,
+    object: Vec<Primitive>,
+}
+
+struct Parts<'a>(&'a [Primitive], [Arc<Bvh>; 1]);
+
+impl Geometry for Parts<'_> {
+    fn len(&self) -> usize {
+        self.0.len()
+    }
+
+    fn primitive(&self, index: usize) -> Primitive {
+        self.0[index]
+    }
+
+    fn objects(&self) -> &[Arc<Bvh>] {
+        &self.1
+    }
+}
+
+impl Scene {
+    /// Without instances in every other.
+    fn any(scale: f32) -> impl Strategy<Value = Self> {
+        let plain = shapes(shape(), scale).prop_map(|shapes| Self { shapes, object: Vec::new() });
+        let with_instances = (shapes(prop_oneof![shape(), instance()], scale), shapes(shape(), scale));
+        prop_oneof![plain, with_instances.prop_map(|(shapes, object)| Self { shapes, object })]
+    }
+
+    fn list(&self) -> Bvh {
+        Bvh::list(&Parts(&self.shapes, [Arc::new(Bvh::list(&self.object).unwrap())])).unwrap()
+    }
+
+    /// With each kind of instructions that this processor has.
+    fn trees(&self, quality: Quality) -> [Bvh; 2] {
+        [Isa::Scalar, Isa::detect()].map(|isa| {
+            let object = Bvh::build(&self.object, quality).unwrap().with_isa(isa);
+            Bvh::build(&Parts(&self.shapes, [Arc::new(object)]), quality).unwrap().with_isa(isa)
+        })
+    }
+
+    /// A point of a shape, by two weights.
+    fn point(&self, shape: &Primitive, [x, y]: [f32; 2], time: f32) -> Vec3 {
+        match shape {
+            Primitive::Sphere(s) => s.center + s.radius * Vec3::new(1.0 - 2.0 * x, y, x * y).normalize_or(Vec3::NEG_Z),
+            Primitive::Quad(q) => q.corner + q.u * x + q.v * y,
+            Primitive::Triangle(t) => t.a.lerp(t.b, x).lerp(t.c, y),
+            Primitive::MovingTriangle(t) => {
+                let [from, to] = t.at.map(|t| t.a.lerp(t.b, x).lerp(t.c, y));
+                from.lerp(to, (time - t.time[0]) / (t.time[1] - t.time[0]).max(0.1))
+            }
+            Primitive::Instance(i) => match (i.to_world(time), self.object.get((x * 16.0) as usize)) {
+                (Some(to_world), Some(shape)) => {
+                    to_world.transform_point3(self.point(shape, [y, x], time).as_dvec3()).as_vec3()
+                }
+                _ => Vec3::ZERO,
+            },
+        }
+    }
 }
 
 /// A place: on a shape (a corner, an edge, inside), or anywhere.
@@ -96,18 +192,11 @@ impl Place {
         ]
     }
 
-    fn find(&self, shapes: &[Primitive], scale: f32) -> Vec3 {
+    fn find(&self, scene: &Scene, scale: f32, time: f32) -> Vec3 {
         match self {
-            Self::On(..) if shapes.is_empty() => Vec3::ZERO,
+            Self::On(..) if scene.shapes.is_empty() => Vec3::ZERO,
             Self::At(p) => *p * scale,
-            Self::On(shape, x, y) => match shape.get(shapes) {
-                Primitive::Sphere(s) => {
-                    s.center + s.radius * Vec3::new(1.0 - 2.0 * x, *y, x * y).normalize_or(Vec3::NEG_Z)
-                }
-                Primitive::Quad(q) => q.corner + q.u * *x + q.v * *y,
-                Primitive::Triangle(t) => t.a.lerp(t.b, *x).lerp(t.c, *y),
-                _ => Vec3::ZERO,
-            },
+            Self::On(shape, x, y) => scene.point(shape.get(&scene.shapes), [*x, *y], time),
         }
     }
 }
@@ -120,6 +209,7 @@ struct Aim {
     zeros: u8,
     stretch: f32,
     t_max: f32,
+    time: f32,
 }
 
 impl Aim {
@@ -127,56 +217,50 @@ impl Aim {
         let zeros = prop_oneof![3 => Just(0_u8), 1 => 0_u8..16];
         let stretch = prop::sample::select(vec![1.0_f32, 0.3, 40.0, -1.0]);
         let t_max = prop_oneof![2 => Just(f32::INFINITY), 1 => Just(1.0_f32), 1 => 0.0_f32..2.0];
-        (Place::any(), Place::any(), zeros, stretch, t_max).prop_map(|(from, to, zeros, stretch, t_max)| Self {
-            from,
-            to,
-            zeros,
-            stretch,
-            t_max,
-        })
+        let time = prop_oneof![prop::sample::select(vec![0.0_f32, 0.25, 0.5, 1.0]), 0.0_f32..1.0];
+        let aim = (Place::any(), Place::any(), zeros, stretch, t_max, time);
+        aim.prop_map(|(from, to, zeros, stretch, t_max, time)| Self { from, to, zeros, stretch, t_max, time })
     }
 
-    fn ray(&self, shapes: &[Primitive], scale: f32) -> Ray {
-        let (o, to) = (self.from.find(shapes, scale), self.to.find(shapes, scale));
+    fn ray(&self, scene: &Scene, scale: f32) -> Ray {
+        let (o, to) = (self.from.find(scene, scale, self.time), self.to.find(scene, scale, self.time));
         let mut d = (to - o) * self.stretch;
         for axis in (0..3).filter(|axis| self.zeros >> axis & 1 == 1) {
             d[axis] = if self.zeros >> 3 & 1 == 1 { -0.0 } else { 0.0 };
         }
         // The shortest direction that is allowed is 1e-18.
         let d = if d.abs().max_element() < 1e-15 { Vec3::X } else { d };
-        Ray { t_max: self.t_max, ..Ray::new(o, d) }
+        Ray { t_max: self.t_max, time: self.time, ..Ray::new(o, d) }
     }
 }
 
 prop_compose! {
     fn scene()(scale in scale())(
-        shapes in shapes(scale),
+        scene in Scene::any(scale),
         aims in prop::collection::vec(Aim::any(), RAYS),
         scale in Just(scale),
-    ) -> (Vec<Primitive>, Vec<Ray>) {
-        let rays = aims.iter().map(|aim| aim.ray(&shapes, scale)).collect();
-        (shapes, rays)
+    ) -> (Scene, Vec<Ray>) {
+        let rays = aims.iter().map(|aim| aim.ray(&scene, scale)).collect();
+        (scene, rays)
     }
 }
 
-fn bits(hit: Option<Hit>) -> Option<[u32; 4]> {
-    hit.map(|h| [h.t.to_bits(), h.prim, h.u.to_bits(), h.v.to_bits()])
-}
+/// All that a hit says, by bits.
+type Bits = ([u32; 4], [u32; Hit::MAX_NESTING]);
 
-/// The same tree with each kind of instructions that this processor has.
-fn each_isa(bvh: &Bvh) -> [Bvh; 2] {
-    [Isa::Scalar, Isa::detect()].map(|isa| bvh.clone().with_isa(isa))
+fn bits(hit: Option<Hit>) -> Option<Bits> {
+    hit.map(|h| ([h.t.to_bits(), h.prim, h.u.to_bits(), h.v.to_bits()], h.instances))
 }
 
 proptest! {
     #![proptest_config(config())]
 
     #[test]
-    fn trees_find_what_the_list_finds((shapes, rays) in scene()) {
-        let list = Bvh::list(&shapes).unwrap();
+    fn trees_find_what_the_list_finds((scene, rays) in scene()) {
+        let list = scene.list();
         let expected: Vec<_> = rays.iter().map(|ray| list.intersect(ray)).collect();
         for quality in Quality::ALL {
-            for tree in each_isa(&Bvh::build(&shapes, quality).unwrap()) {
+            for tree in scene.trees(quality) {
                 let (mut hits, mut occluded) = (vec![None; RAYS], [false; RAYS]);
                 tree.intersect_batch(&rays, &mut hits);
                 tree.occluded_batch(&rays, &mut occluded);
@@ -188,7 +272,7 @@ proptest! {
                     prop_assert_eq!(occluded[i], hit.is_some(), "occluded in a batch: {} {:?}", quality, ray);
                     if let Some(hit) = hit {
                         prop_assert!(hit.t > 0.0 && hit.t <= ray.t_max, "{:?} {:?}", hit, ray);
-                        prop_assert_eq!(tree.surface(&hit, 0.0), list.surface(&expected[i].unwrap(), 0.0));
+                        prop_assert_eq!(tree.surface(&hit, ray.time), list.surface(&expected[i].unwrap(), ray.time));
                     }
                 }
             }
@@ -196,14 +280,14 @@ proptest! {
     }
 
     #[test]
-    fn the_order_of_the_primitives_does_not_matter((shapes, rays) in scene(), turn in any::<prop::sample::Index>()) {
-        let mut others = shapes.clone();
-        others.reverse();
-        if !others.is_empty() {
-            others.rotate_left(turn.index(shapes.len()));
+    fn the_order_of_the_primitives_does_not_matter((scene, rays) in scene(), turn in any::<prop::sample::Index>()) {
+        let mut other = scene.clone();
+        other.shapes.reverse();
+        if !other.shapes.is_empty() {
+            other.shapes.rotate_left(turn.index(scene.shapes.len()));
         }
         for quality in Quality::ALL {
-            let [a, b] = [&shapes, &others].map(|shapes| Bvh::build(shapes, quality).unwrap());
+            let [[_, a], [_, b]] = [&scene, &other].map(|scene| scene.trees(quality));
             for ray in &rays {
                 let [a, b] = [&a, &b].map(|bvh| bvh.intersect(ray).map(|hit| hit.t.to_bits()));
                 prop_assert_eq!(a, b, "{} {:?}", quality, ray);
@@ -213,9 +297,8 @@ proptest! {
 
     /// A ray that ends at the hit or just beyond has it, and one that ends just before has not.
     #[test]
-    fn hits_end_where_rays_end((shapes, rays) in scene()) {
-        let built = Quality::ALL.map(|quality| Bvh::build(&shapes, quality).unwrap());
-        for tree in built.iter().flat_map(each_isa) {
+    fn hits_end_where_rays_end((scene, rays) in scene()) {
+        for tree in Quality::ALL.into_iter().flat_map(|quality| scene.trees(quality)) {
             for ray in &rays {
                 let Some(hit) = tree.intersect(ray) else { continue };
                 for t_max in [hit.t, hit.t.next_up().min(ray.t_max)] {

@@ -3,7 +3,7 @@
 use std::fmt;
 use std::str::FromStr;
 
-/// Which builder makes the tree. The hits are the same; the time to build and to trace differs.
+/// Which builder makes the tree. The hits are the same, bit by bit; the time to build and to trace differs, and the memory.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum Quality {
     /// Sorted along a space-filling curve and merged: for viewers and animation.

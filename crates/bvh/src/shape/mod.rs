@@ -19,7 +19,8 @@ pub use quad::Quad;
 pub use sphere::Sphere;
 pub use triangle::Triangle;
 
-/// Something that a ray can hit.
+/// Something that a ray can hit. All numbers are single precision, and must be finite; to intersect them, double precision is
+/// used. The range in which hits are exact is told [here](crate#what-is-promised).
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Primitive {
     /// A triangle.
@@ -34,10 +35,10 @@ pub enum Primitive {
     Instance(Instance),
 }
 
-/// What was hit, as its points are computed: in double precision, at the time of the ray.
+/// What was hit, as its points are computed: in double precision, at the time of the ray, in the space of the object.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Surface {
-    /// A triangle or a quad: the points `corner + u edges[0] + v edges[1]`; the normal is edges[0] × edges[1].
+    /// A triangle or a quad: the points `corner + u edges[0] + v edges[1]`; the normal is `edges[0] × edges[1]`.
     Flat {
         /// The first vertex.
         corner: DVec3,
@@ -96,7 +97,8 @@ impl Primitive {
         }
     }
 
-    /// The box around it at all times, wider by a few roundings; for an instance, of what the list of objects has for it.
+    /// The box around it at all times, wider by a few roundings; for an instance, around the transformed box of what the list
+    /// of objects has for it, and [empty](Aabb::EMPTY) if that is nothing.
     pub fn bounds(&self, objects: &[Arc<Bvh>]) -> Aabb {
         match self {
             Self::Instance(i) => objects.get(i.object as usize).map_or(Aabb::EMPTY, |object| i.bounds(object)),

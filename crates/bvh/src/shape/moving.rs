@@ -7,12 +7,16 @@ use crate::ray::{PrimHit, RayF64};
 use crate::shape::{Triangle, flat};
 
 /// A triangle whose vertices move on straight lines at constant speed, while it exists. A motion of several keys is one of these
-/// for each interval between them.
+/// for each interval between them, and at a key, where two are in the same place, that of the lower index is hit.
+///
+/// The tree has boxes around the whole way: the farther a triangle moves for its size, the slower are rays. Meshes stay closed if
+/// the triangles that share a vertex have the same numbers for it, and the same times.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct MovingTriangle {
-    /// At the beginning and at the end of its time.
+    /// At the beginning and at the end of its time. One of the two may be without area.
     pub at: [Triangle; 2],
-    /// When it begins and ends to exist, both inclusive, in the time of [`Ray::time`](crate::Ray::time).
+    /// When it begins and ends to exist, both inclusive, in the time of [`Ray::time`](crate::Ray::time). Finite; if it ends
+    /// before it begins, it is never there.
     pub time: [f32; 2],
 }
 

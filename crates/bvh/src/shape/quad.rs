@@ -6,7 +6,8 @@ use crate::aabb::Aabb;
 use crate::ray::{PrimHit, RayF64};
 use crate::shape::flat;
 
-/// The parallelogram of all `corner + a u + b v` with a and b in 0..1; its normal is u × v.
+/// The parallelogram of all `corner + a u + b v` with a and b in 0..=1; its normal is u × v. Both sides are hit. Quads that
+/// share an edge leave no gap only as far as their corners, added up in double precision, are the same.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Quad {
     /// One corner.

@@ -11,12 +11,12 @@ use glam::{DVec3, Vec3};
 use crate::aabb::Aabb;
 use crate::ray::{PrimHit, RayF64};
 
-/// A sphere, hit from outside and from inside.
+/// A sphere, hit from outside and from inside: once, at the nearer point that lies ahead.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Sphere {
     /// Centre.
     pub center: Vec3,
-    /// Radius, above 0.
+    /// Radius. If it is not above 0, there is nothing to hit.
     pub radius: f32,
 }
 

@@ -6,7 +6,7 @@ use crate::aabb::Aabb;
 use crate::ray::{PrimHit, RayF64};
 use crate::shape::flat;
 
-/// A triangle; its normal is (b − a) × (c − a).
+/// A triangle; its normal is (b − a) × (c − a). Both sides are hit. Triangles that share two vertices leave no gap between them.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Triangle {
     /// First vertex.

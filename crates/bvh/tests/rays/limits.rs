@@ -9,6 +9,12 @@ fn ball(center: Vec3, radius: f32) -> Primitive {
     Primitive::Sphere(Sphere { center, radius })
 }
 
+#[test]
+fn trees_can_be_shared_between_threads() {
+    fn is_shared<T: Send + Sync + 'static>() {}
+    is_shared::<Bvh>();
+}
+
 /// Sets that the surface area heuristic would split off one by one, deeper than the stack; and every ball is found.
 #[test]
 fn geometric_series() {

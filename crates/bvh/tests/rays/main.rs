@@ -2,8 +2,10 @@
 //! that no ray leaves. Seeds are fixed, so a result never changes without the code.
 
 mod build;
-mod double;
+mod callbacks;
+mod instances;
 mod limits;
+mod motion;
 mod random;
 mod reference;
 mod regressions;

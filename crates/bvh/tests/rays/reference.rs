@@ -2,9 +2,11 @@
 //!
 //! Each answer comes with what double precision may make of it: a few times 1e-16 of the lengths that go into it.
 
+mod double;
+
 use eyebeam_bvh::{Hit, Primitive, Quad, Ray, Sphere, Triangle};
 
-use crate::double::{Double, Double3};
+use double::{Double, Double3};
 
 /// What double precision may lose and the crate's shapes are wider by, relative to the lengths involved.
 const EPSILON: f64 = 64.0 * f64::EPSILON;

@@ -6,8 +6,8 @@ use glam::Vec3;
 use crate::reference::Expected;
 
 /// A triangle 0.05 × 0.0005 × 20 seen nearly along its length, from 4000 km: its projection is known to a few per cent of
-/// its size, but the exact test bounds its errors by the largest components and takes it to be seen edge-on. Meshes that
-/// are stretched by 1e4 have holes from there.
+/// its size. A test that bounds its errors by the largest components takes it to be seen edge-on, and meshes that are
+/// stretched by 1e4 have holes from there.
 #[test]
 fn slivers_seen_from_afar() {
     let triangle = Triangle { a: Vec3::ZERO, b: Vec3::new(0.05, 0.0, -3.0), c: Vec3::new(0.0, 0.0005, 15.0) };

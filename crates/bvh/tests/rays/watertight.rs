@@ -27,7 +27,7 @@ fn quads(half: Vec3) -> Vec<Quad> {
 }
 
 /// The octahedron, each triangle cut in four `levels` times, on the unit sphere; then stretched.
-fn icosphere(levels: u32, stretch: Vec3) -> Vec<[Vec3; 3]> {
+pub(crate) fn icosphere(levels: u32, stretch: Vec3) -> Vec<[Vec3; 3]> {
     let mut triangles: Vec<[Vec3; 3]> = Vec::new();
     for signs in 0..8 {
         let sign = |axis: usize| if signs >> axis & 1 == 0 { 1.0 } else { -1.0 };
@@ -126,6 +126,11 @@ fn torus(around: usize, across: usize) -> Vec<[Vec3; 3]> {
 /// Radii of the torus: of the circle about the axis, and of the tube.
 const TORUS: [f32; 2] = [0.7, 0.3];
 
+/// Up to 10 000 times the size.
+fn far(r: &mut Random) -> f32 {
+    r.pick(&[1e1, 1e2, 1e3, 1e4])
+}
+
 /// A closed surface of about size 1, and what is certainly inside and outside.
 struct Closed {
     name: &'static str,
@@ -174,10 +179,10 @@ impl Closed {
     }
 
     /// A ray from outside exactly through a point of an edge, along an axis, if it then passes well inside.
-    fn along_an_axis(&self, edge: Vec3, stretch: Vec3, powers: usize, r: &mut Random) -> Option<Ray> {
+    fn along_an_axis(&self, edge: Vec3, stretch: Vec3, r: &mut Random) -> Option<Ray> {
         let (axis, side) = (r.below(3), r.pick(&[1.0, -1.0]));
         let (mut o, mut middle) = (edge, edge / stretch);
-        o[axis] = side * stretch[axis] * 10.0_f32.powi(r.below(powers) as i32 + 1);
+        o[axis] = side * stretch[axis] * far(r);
         middle[axis] = 0.0;
         let d = -side * stretch[axis] * Vec3::AXES[axis];
         ((self.distance)(middle) < 0.6).then(|| Ray::new(o, d))
@@ -185,8 +190,6 @@ impl Closed {
 
     /// Rays from inside at an edge, and rays past an edge from outside that end inside, near and far: each must hit.
     fn assert_no_ray_gets_through(&self, bvh: &Bvh, stretch: Vec3, rays: usize, r: &mut Random) {
-        // Stretched ones, seen along their length from far away, are too thin for the exact test (regressions.rs).
-        let powers = if stretch.min_element() == stretch.max_element() { 4 } else { 2 };
         for _ in 0..rays {
             let edge = self.edge_point(r);
             let p = edge / stretch;
@@ -196,7 +199,7 @@ impl Closed {
                 (o, (edge - o) * r.pick(&[1.0, 1e-3, 1e3]), f32::INFINITY)
             } else {
                 // The hole of the torus is narrow.
-                let farthest = if self.name == "torus" { 2.0 } else { 10.0_f32.powi(r.below(powers) as i32 + 1) };
+                let farthest = if self.name == "torus" { 2.0 } else { far(r) };
                 let outside = inside + (p - inside) * (1.0 + r.unit() * (farthest - 1.0));
                 if (self.distance)(outside) < 1.4 {
                     continue;
@@ -204,7 +207,7 @@ impl Closed {
                 let o = outside * stretch;
                 (o, inside * stretch - o, 1.0)
             };
-            let along_axis = self.along_an_axis(edge, stretch, powers, r).filter(|_| r.below(3) == 0);
+            let along_axis = self.along_an_axis(edge, stretch, r).filter(|_| r.below(3) == 0);
             let ray = along_axis.unwrap_or(Ray { t_max, ..Ray::new(o, d) });
             let is_hit = if r.below(4) == 0 { bvh.occluded(&ray) } else { bvh.intersect(&ray).is_some() };
             assert!(is_hit, "{}, stretched by {stretch}: {ray:?} at {edge}", self.name);
@@ -238,8 +241,7 @@ fn no_ray_gets_through_an_edge() {
     });
 }
 
-/// Found among 100 million: the ray crosses a triangle that it sees edge-on, which is not hit below 64 rounding errors,
-/// and its neighbour is wider by one only.
+/// Found among 100 million with an exact test that took triangles seen edge-on for missed.
 #[test]
 fn no_ray_gets_through_a_triangle_seen_edge_on() {
     let [_, hills, ..] = Closed::all(Vec3::new(1.0, 0.01, 300.0));
