@@ -14,7 +14,7 @@ test:
 
 # The ray kernel at length: 10 million random rays on random scenes, 100 million at the edges of closed surfaces.
 test-nightly:
-	PROPTEST_CASES=105000 cargo test --release --locked -p eyebeam-bvh --test properties
+	PROPTEST_CASES=52500 cargo test --release --locked -p eyebeam-bvh --test properties
 	EYEBEAM_RAYS=100000000 cargo test --release --locked -p eyebeam-bvh --test rays no_ray_gets_through_an_edge
 
 # The ray kernel with the instructions of ARM, on an emulated processor. Without the tools it says so and ends well.
@@ -25,7 +25,7 @@ test-arm:
 		set -x; \
 		CARGO_TARGET_AARCH64_UNKNOWN_LINUX_GNU_LINKER=aarch64-linux-gnu-gcc \
 		CARGO_TARGET_AARCH64_UNKNOWN_LINUX_GNU_RUNNER="qemu-aarch64 -L /usr/aarch64-linux-gnu" \
-		PROPTEST_CASES=100 \
+		PROPTEST_CASES=52500 \
 		cargo test --locked -p eyebeam-bvh --target $(ARM) --lib --test memory --test properties; \
 	else \
 		echo "test-arm: SKIPPED. It needs the Debian packages gcc-aarch64-linux-gnu, libc6-dev-arm64-cross and qemu-user," \

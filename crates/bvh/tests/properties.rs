@@ -11,7 +11,7 @@ use glam::Vec3;
 use proptest::prelude::*;
 use proptest::test_runner::RngSeed;
 
-const RAYS: usize = 32;
+const RAYS: usize = 64;
 
 fn config() -> ProptestConfig {
     let given = ProptestConfig::default();
