@@ -162,7 +162,7 @@ mod tests {
             "| best / high | 2 |",
             "| balanced, batch |",
             "| 485 |",
-            "64 over depth-first |",
+            "| 64, rays in flight |",
         ] {
             assert!(out.contains(row), "{row} is missing from\n{out}");
         }

@@ -28,42 +28,60 @@ const LIGHT: f32 = 10.0;
 /// Pieces of the picture in which all take turns.
 const TURNS: u32 = 4;
 
-/// Depth-first, and two sizes of batches.
-const SUBJECTS: [Option<usize>; 3] = [None, Some(16), Some(64)];
+/// A way to trace paths.
+struct Way {
+    name: &'static str,
+    /// Paths that go through the stages together; without it, depth-first.
+    batch: Option<usize>,
+    /// Whether the kernel has several rays of a batch in flight.
+    flies: bool,
+}
 
-/// All subjects in turn on each mesh.
+/// Stages cost or gain something by themselves, and something by what the kernel makes of many rays.
+const WAYS: [Way; 4] = [
+    Way { name: "depth-first", batch: None, flies: false },
+    Way { name: "64, rays one by one", batch: Some(64), flies: false },
+    Way { name: "16, rays in flight", batch: Some(16), flies: true },
+    Way { name: "64, rays in flight", batch: Some(64), flies: true },
+];
+
+/// All ways in turn on each mesh.
 pub(super) fn run(meshes: &[(MeshName, &Model)], plan: Plan, out: &mut dyn Write) -> Outcome {
-    writeln!(out, "\n### Paths of {DEPTH} vertices, Msamples/s of one thread\n")?;
-    let columns = [
-        "rays per path",
-        "depth-first",
-        "batch of 16",
-        "batch of 64",
-        "16 over depth-first",
-        "64 over depth-first",
-        "traversal, depth-first",
-        "of 16",
-        "of 64",
-    ];
+    writeln!(out, "\n### Paths of {DEPTH} vertices, one thread\n")?;
+    let columns = ["paths at a time", "rays per path", "Msamples/s", "over depth-first", "of it traversal"];
     header(out, "mesh", columns.map(str::to_owned).into_iter())?;
     for (name, model) in meshes {
         let bvh = Bvh::build(&model.mesh(), Quality::Balanced)?;
         let camera = Camera::new(model, (plan.resolution / 4).max(Camera::TILE));
-        row(out, name.label(), cells(&Job { model, bvh: &bvh, camera }, plan.rounds)?.into_iter())?;
+        let job = Job { model, bvh: &bvh, camera };
+        let samples = (camera.pixels() * SPP) as usize;
+        let seconds = measure(&job, plan.rounds)?;
+        for (way, own) in zip(WAYS, &seconds) {
+            let ratio = median(zip(&seconds[0], own).map(|(depth_first, own)| depth_first / own).collect());
+            let own = median(own.clone());
+            let (rays, traversal) = replay(&job, &way, plan.rounds.div_ceil(3));
+            let cells = [
+                way.name.to_owned(),
+                format!("{:.1}", rays as f64 / samples as f64),
+                format!("{:.3}", mega(samples, own)),
+                format!("{ratio:.2}"),
+                format!("{:.0} %", 100.0 * traversal / own),
+            ];
+            row(out, name.label(), cells.into_iter())?;
+        }
     }
     Ok(())
 }
 
-/// Medians of the rounds, and of the ratios of each round.
-fn cells(job: &Job<'_>, rounds: usize) -> Result<[String; 9], &'static str> {
-    let mut seconds = SUBJECTS.map(|_| Vec::new());
-    for _ in 0..rounds {
-        let mut pictures = SUBJECTS.map(|_| vec![0.0; job.camera.pixels() as usize]);
-        seconds.iter_mut().for_each(|seconds| seconds.push(0.0));
+/// Seconds of each way in each round.
+fn measure(job: &Job<'_>, rounds: usize) -> Result<[Vec<f64>; WAYS.len()], &'static str> {
+    let mut seconds = WAYS.map(|_| vec![0.0; rounds]);
+    for round in 0..rounds {
+        let mut pictures = WAYS.map(|_| vec![0.0; job.camera.pixels() as usize]);
         for turn in 0..TURNS {
-            for ((subject, picture), seconds) in zip(SUBJECTS, &mut pictures).zip(&mut seconds) {
-                let time = thread_time(|| job.trace(subject, turn, picture, &mut Kernel::<false>::new(job.bvh)));
-                *seconds.last_mut().ok_or("no round")? += time.as_secs_f64();
+            for ((way, picture), seconds) in zip(WAYS, &mut pictures).zip(&mut seconds) {
+                let mut kernel = Kernel::<false>::new(job.bvh, way.flies);
+                seconds[round] += thread_time(|| job.trace(way.batch, turn, picture, &mut kernel)).as_secs_f64();
             }
         }
         let bits = |picture: &[f64]| picture.iter().map(|l| l.to_bits()).collect::<Vec<_>>();
@@ -71,20 +89,15 @@ fn cells(job: &Job<'_>, rounds: usize) -> Result<[String; 9], &'static str> {
             return Err("the pictures of paths differ");
         }
     }
-    let (paths, mut rays) = ((job.camera.pixels() * SPP) as usize, 0);
-    let replays = SUBJECTS.map(|subject| {
-        let mut log = Kernel::<true>::new(job.bvh);
-        let mut picture = vec![0.0; job.camera.pixels() as usize];
-        (0..TURNS).for_each(|turn| job.trace(subject, turn, &mut picture, &mut log));
-        rays = log.rays.len();
-        median((0..rounds.div_ceil(3)).map(|_| thread_time(|| log.replay()).as_secs_f64()).collect())
-    });
-    let [single, small, large] = seconds.each_ref().map(|seconds| mega(paths, median(seconds.clone())));
-    let ratio = |i: usize| median(zip(&seconds[0], &seconds[i]).map(|(single, batch)| single / batch).collect());
-    let share = |i: usize| format!("{:.0} %", 100.0 * replays[i] / median(seconds[i].clone()));
-    let [rays, single, small, large, small_ratio, large_ratio] =
-        [rays as f64 / paths as f64, single, small, large, ratio(1), ratio(2)].map(|value| format!("{value:.3}"));
-    Ok([rays, single, small, large, small_ratio, large_ratio, share(0), share(1), share(2)])
+    Ok(seconds)
+}
+
+/// The rays of a picture, and the seconds that the kernel takes for them by themselves.
+fn replay(job: &Job<'_>, way: &Way, rounds: usize) -> (usize, f64) {
+    let mut log = Kernel::<true>::new(job.bvh, way.flies);
+    let mut picture = vec![0.0; job.camera.pixels() as usize];
+    (0..TURNS).for_each(|turn| job.trace(way.batch, turn, &mut picture, &mut log));
+    (log.rays.len(), median((0..rounds).map(|_| thread_time(|| log.replay()).as_secs_f64()).collect()))
 }
 
 /// A path by its place in the picture.

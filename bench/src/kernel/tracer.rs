@@ -1,6 +1,7 @@
 //! The ways of asking for hits that are measured.
 
 use std::hint::black_box;
+use std::iter::zip;
 use std::slice::from_ref;
 
 use eyebeam_bvh::{Bvh, Hit, Ray};
@@ -113,13 +114,15 @@ enum Call {
 /// The kernel; it may log what it is asked, to answer all of it again with nothing in between.
 pub(crate) struct Kernel<'b, const LOG: bool> {
     bvh: &'b Bvh,
+    /// Whether it gets batches as such, or ray by ray.
+    flies: bool,
     calls: Vec<(Call, usize)>,
     pub(crate) rays: Vec<Ray>,
 }
 
 impl<'b, const LOG: bool> Kernel<'b, LOG> {
-    pub(crate) fn new(bvh: &'b Bvh) -> Self {
-        Self { bvh, calls: Vec::new(), rays: Vec::new() }
+    pub(crate) fn new(bvh: &'b Bvh, flies: bool) -> Self {
+        Self { bvh, flies, calls: Vec::new(), rays: Vec::new() }
     }
 
     #[inline(always)]
@@ -141,11 +144,17 @@ impl<'b, const LOG: bool> Kernel<'b, LOG> {
     }
 
     pub(crate) fn intersect_batch(&mut self, rays: &[Ray], hits: &mut [Option<Hit>]) {
+        if !self.flies {
+            return zip(rays, hits).for_each(|(ray, hit)| *hit = self.intersect(ray));
+        }
         self.log(Call::IntersectBatch, rays);
         self.bvh.intersect_batch(rays, hits);
     }
 
     pub(crate) fn occluded_batch(&mut self, rays: &[Ray], occluded: &mut [bool]) {
+        if !self.flies {
+            return zip(rays, occluded).for_each(|(ray, occluded)| *occluded = self.occluded(ray));
+        }
         self.log(Call::OccludedBatch, rays);
         self.bvh.occluded_batch(rays, occluded);
     }
