@@ -28,6 +28,8 @@ const INVALID_ID: c_uint = c_uint::MAX;
 const GEOMETRY_TYPE_TRIANGLE: c_uint = 0;
 const BUFFER_TYPE_INDEX: c_uint = 0;
 const BUFFER_TYPE_VERTEX: c_uint = 1;
+/// Rays pass between no two triangles that share an edge.
+const SCENE_FLAG_ROBUST: c_uint = 4;
 const FORMAT_UINT3: c_uint = 0x5003;
 const FORMAT_FLOAT3: c_uint = 0x9003;
 
@@ -105,6 +107,7 @@ api! {
     rtcNewScene: fn(Handle) -> Handle;
     rtcReleaseScene: fn(Handle);
     rtcSetSceneBuildQuality: fn(Handle, c_uint);
+    rtcSetSceneFlags: fn(Handle, c_uint);
     rtcCommitScene: fn(Handle);
     rtcNewGeometry: fn(Handle, c_uint) -> Handle;
     rtcReleaseGeometry: fn(Handle);
@@ -243,6 +246,15 @@ impl<'e> EmbreeScene<'e> {
     /// A scene that is ready for rays, built on one thread.
     pub(crate) fn build(embree: &'e Embree, model: &Model, quality: BuildQuality) -> Result<Self, String> {
         let mut scene = Self::new(embree, model, quality, 1)?;
+        scene.commit()?;
+        Ok(scene)
+    }
+
+    /// As [`build`](Self::build), of high quality, and watertight as our kernel is.
+    pub(crate) fn build_robust(embree: &'e Embree, model: &Model) -> Result<Self, String> {
+        let mut scene = Self::new(embree, model, BuildQuality::High, 1)?;
+        // SAFETY: the handle is valid.
+        unsafe { (scene.api.rtcSetSceneFlags)(scene.scene, SCENE_FLAG_ROBUST) };
         scene.commit()?;
         Ok(scene)
     }

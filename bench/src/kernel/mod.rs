@@ -1,4 +1,4 @@
-//! The ray kernel by itself: against Embree on meshes, and against the textbook's list and tree on spheres.
+//! The ray kernel by itself and in a small path tracer: against Embree on meshes, and against the textbook's list and tree on spheres.
 //!
 //! Everything that is compared gets the same rays and takes turns in short pieces of work, so that a busy or slow machine
 //! slows all. One thread is timed by its processor time and medians count; more threads by the clock, and the fastest round
@@ -8,6 +8,7 @@ mod building;
 mod embree;
 pub(crate) mod few_spheres;
 mod meshes;
+mod paths;
 mod random;
 mod rays;
 mod scaling;
@@ -37,6 +38,8 @@ pub enum Section {
     Threads,
     /// Rays per second on spheres, against the textbook's list and tree
     Spheres,
+    /// Samples per second of a small path tracer, one path at a time and in batches
+    Paths,
 }
 
 /// What is measured, and how thoroughly.
@@ -105,6 +108,15 @@ pub fn run(
     if is_wanted(Section::Spheres) {
         few_spheres::run(plan, out)?;
     }
+    if is_wanted(Section::Paths) {
+        let boxes = MeshName::Boxes.model();
+        let mut meshes: Vec<_> = meshes.iter().map(|(name, model)| (*name, model)).collect();
+        // The Cornell box shows what each path costs without much traversal.
+        if options.mesh.is_none() && !options.quick {
+            meshes.insert(0, (MeshName::Boxes, &boxes));
+        }
+        paths::run(&meshes, plan, out)?;
+    }
     Ok(())
 }
 
@@ -144,7 +156,14 @@ mod tests {
         let mut out = Vec::new();
         run(&options, 9, None, &mut out).unwrap();
         let out = String::from_utf8(out).unwrap();
-        for row in ["| primary |", "| shadow of bounce 1 |", "| best / high | 2 |", "| balanced, batch |", "| 485 |"] {
+        for row in [
+            "| primary |",
+            "| shadow of bounce 1 |",
+            "| best / high | 2 |",
+            "| balanced, batch |",
+            "| 485 |",
+            "| 64, rays in flight |",
+        ] {
             assert!(out.contains(row), "{row} is missing from\n{out}");
         }
     }

@@ -5,7 +5,7 @@ use std::f32::consts::TAU;
 use eyebeam_bvh::{Bvh, Hit, Ray};
 use glam::Vec3;
 
-use super::meshes::Model;
+use super::meshes::{Model, Patch};
 use super::random::Random;
 
 /// What is asked about rays.
@@ -46,28 +46,55 @@ pub(crate) fn sets(model: &Model, bvh: &Bvh, resolution: u32) -> [RaySet; 5] {
     ]
 }
 
-/// One ray somewhere in each pixel of a square picture: tile by tile, row by row inside a tile.
+/// One ray somewhere in each pixel of a square picture, in the order of its tiles.
 fn primary(model: &Model, resolution: u32) -> Vec<Ray> {
-    const TILE: u32 = 16;
-    let view = model.view;
-    let forward = (view.look_at - view.eye).normalize();
-    let right = forward.cross(Vec3::Y).normalize();
-    let up = right.cross(forward);
-    let half = (view.vfov_deg.to_radians() * 0.5).tan();
+    let camera = Camera::new(model, resolution);
     let mut random = Random(1);
-    let tiles = resolution / TILE;
-    let mut rays = Vec::new();
-    for (tile, pixel) in (0..tiles * tiles).flat_map(|tile| (0..TILE * TILE).map(move |pixel| (tile, pixel))) {
-        let x = (tile % tiles * TILE + pixel % TILE) as f32 + random.unit();
-        let y = (tile / tiles * TILE + pixel / TILE) as f32 + random.unit();
-        let (x, y) = (x / resolution as f32 * 2.0 - 1.0, 1.0 - y / resolution as f32 * 2.0);
-        rays.push(Ray::new(view.eye, (forward + (right * (x * half) + up * (y * half))).normalize()));
+    (0..camera.pixels()).map(|pixel| camera.ray(pixel, [random.unit(), random.unit()])).collect()
+}
+
+/// A pinhole camera for a square picture of whole tiles.
+#[derive(Clone, Copy)]
+pub(crate) struct Camera {
+    eye: Vec3,
+    forward: Vec3,
+    right: Vec3,
+    up: Vec3,
+    half: f32,
+    resolution: u32,
+}
+
+impl Camera {
+    /// Pixels along the side of a tile.
+    pub(crate) const TILE: u32 = 16;
+
+    pub(crate) fn new(model: &Model, resolution: u32) -> Self {
+        let view = model.view;
+        let forward = (view.look_at - view.eye).normalize();
+        let right = forward.cross(Vec3::Y).normalize();
+        let half = (view.vfov_deg.to_radians() * 0.5).tan();
+        Self { eye: view.eye, forward, right, up: right.cross(forward), half, resolution }
     }
-    rays
+
+    /// Their number: tile by tile, row by row inside a tile.
+    pub(crate) fn pixels(&self) -> u32 {
+        (self.resolution / Self::TILE * Self::TILE).pow(2)
+    }
+
+    /// Through the point `u` of a pixel, from (0, 0) to (1, 1).
+    pub(crate) fn ray(&self, pixel: u32, u: [f32; 2]) -> Ray {
+        let tiles = self.resolution / Self::TILE;
+        let (tile, pixel) = (pixel / Self::TILE.pow(2), pixel % Self::TILE.pow(2));
+        let x = (tile % tiles * Self::TILE + pixel % Self::TILE) as f32 + u[0];
+        let y = (tile / tiles * Self::TILE + pixel / Self::TILE) as f32 + u[1];
+        let resolution = self.resolution as f32;
+        let (x, y) = (x / resolution * 2.0 - 1.0, 1.0 - y / resolution * 2.0);
+        Ray::new(self.eye, (self.forward + (self.right * (x * self.half) + self.up * (y * self.half))).normalize())
+    }
 }
 
 /// A point just above what was hit, and the normal on the ray's side.
-fn surface(model: &Model, ray: &Ray, hit: &Hit) -> (Vec3, Vec3) {
+pub(crate) fn surface(model: &Model, ray: &Ray, hit: &Hit) -> (Vec3, Vec3) {
     let [a, b, c] = model.corners(hit.prim);
     let normal = (b - a).cross(c - a).normalize_or(-ray.d);
     let normal = if normal.dot(ray.d) > 0.0 { -normal } else { normal };
@@ -82,25 +109,34 @@ fn surfaces<'a>(model: &'a Model, rays: &'a [Ray], hits: &'a [Option<Hit>]) -> i
 /// From each hit on, in a direction of cosine density.
 fn bounce(model: &Model, rays: &[Ray], hits: &[Option<Hit>], seed: u64) -> Vec<Ray> {
     let mut random = Random(seed);
-    let scatter = |(p, normal): (Vec3, Vec3)| {
-        let (s, t) = normal.any_orthonormal_pair();
-        let (sin_sq, angle) = (random.unit(), random.unit() * TAU);
-        let sin = sin_sq.sqrt();
-        let cos = (1.0 - sin_sq).sqrt().max(1e-3);
-        Ray::new(p, (s * (sin * angle.cos()) + t * (sin * angle.sin()) + normal * cos).normalize())
-    };
+    let scatter = |(p, normal)| Ray::new(p, cosine_direction(normal, [random.unit(), random.unit()]));
     surfaces(model, rays, hits).map(scatter).collect()
+}
+
+/// A direction of cosine density about the normal.
+pub(crate) fn cosine_direction(normal: Vec3, u: [f32; 2]) -> Vec3 {
+    let (s, t) = normal.any_orthonormal_pair();
+    let (sin_sq, angle) = (u[0], u[1] * TAU);
+    let sin = sin_sq.sqrt();
+    let cos = (1.0 - sin_sq).sqrt().max(1e-3);
+    (s * (sin * angle.cos()) + t * (sin * angle.sin()) + normal * cos).normalize()
 }
 
 /// From each hit to a point on a light, if that is on the normal's side.
 fn shadow(model: &Model, rays: &[Ray], hits: &[Option<Hit>], seed: u64) -> Vec<Ray> {
     let mut random = Random(seed);
-    let connect = |(p, normal): (Vec3, Vec3)| {
-        let [corner, u, v] = model.lights[random.integer() as usize % model.lights.len()];
-        let to_light = corner + (u * random.unit() + v * random.unit()) - p;
-        let distance = to_light.length();
-        let ray = Ray { t_max: distance * 0.999, ..Ray::new(p, to_light / distance) };
-        (to_light.dot(normal) > 0.0).then_some(ray)
+    let connect = |(p, normal)| {
+        let light = model.lights[random.integer() as usize % model.lights.len()];
+        connection(p, normal, light, [random.unit(), random.unit()]).map(|(ray, _)| ray)
     };
     surfaces(model, rays, hits).filter_map(connect).collect()
+}
+
+/// The shadow ray to a point on a light and the distance of that, unless it is below the surface.
+pub(crate) fn connection(p: Vec3, normal: Vec3, light: Patch, random: [f32; 2]) -> Option<(Ray, f32)> {
+    let [corner, u, v] = light;
+    let to_light = corner + (u * random[0] + v * random[1]) - p;
+    let distance = to_light.length();
+    let ray = Ray { t_max: distance * 0.999, ..Ray::new(p, to_light / distance) };
+    (to_light.dot(normal) > 0.0).then_some((ray, distance))
 }

@@ -1,8 +1,10 @@
-//! The ways of asking for hits that are measured, behind one trait.
+//! The ways of asking for hits that are measured.
 
 use std::hint::black_box;
+use std::iter::zip;
+use std::slice::from_ref;
 
-use eyebeam_bvh::{Bvh, Ray};
+use eyebeam_bvh::{Bvh, Hit, Ray};
 
 use super::rays::{Query, RaySet};
 
@@ -98,4 +100,79 @@ impl Answers {
 /// Whether two distances are the same but for rounding.
 pub(crate) fn is_close(a: f32, b: f32) -> bool {
     a == b || (a - b).abs() <= 1e-3 * b.max(1e-2)
+}
+
+/// What the kernel is asked.
+#[derive(Clone, Copy)]
+enum Call {
+    Intersect,
+    Occluded,
+    IntersectBatch,
+    OccludedBatch,
+}
+
+/// The kernel; it may log what it is asked, to answer all of it again with nothing in between.
+pub(crate) struct Kernel<'b, const LOG: bool> {
+    bvh: &'b Bvh,
+    /// Whether it gets batches as such, or ray by ray.
+    flies: bool,
+    calls: Vec<(Call, usize)>,
+    pub(crate) rays: Vec<Ray>,
+}
+
+impl<'b, const LOG: bool> Kernel<'b, LOG> {
+    pub(crate) fn new(bvh: &'b Bvh, flies: bool) -> Self {
+        Self { bvh, flies, calls: Vec::new(), rays: Vec::new() }
+    }
+
+    #[inline(always)]
+    fn log(&mut self, call: Call, rays: &[Ray]) {
+        if LOG {
+            self.calls.push((call, rays.len()));
+            self.rays.extend_from_slice(rays);
+        }
+    }
+
+    pub(crate) fn intersect(&mut self, ray: &Ray) -> Option<Hit> {
+        self.log(Call::Intersect, from_ref(ray));
+        self.bvh.intersect(ray)
+    }
+
+    pub(crate) fn occluded(&mut self, ray: &Ray) -> bool {
+        self.log(Call::Occluded, from_ref(ray));
+        self.bvh.occluded(ray)
+    }
+
+    pub(crate) fn intersect_batch(&mut self, rays: &[Ray], hits: &mut [Option<Hit>]) {
+        if !self.flies {
+            return zip(rays, hits).for_each(|(ray, hit)| *hit = self.intersect(ray));
+        }
+        self.log(Call::IntersectBatch, rays);
+        self.bvh.intersect_batch(rays, hits);
+    }
+
+    pub(crate) fn occluded_batch(&mut self, rays: &[Ray], occluded: &mut [bool]) {
+        if !self.flies {
+            return zip(rays, occluded).for_each(|(ray, occluded)| *occluded = self.occluded(ray));
+        }
+        self.log(Call::OccludedBatch, rays);
+        self.bvh.occluded_batch(rays, occluded);
+    }
+
+    /// Asks again.
+    pub(crate) fn replay(&self) {
+        let (mut hits, mut occluded) = ([None; 64], [false; 64]);
+        let mut rest = &self.rays[..];
+        for &(call, count) in &self.calls {
+            let (rays, others) = rest.split_at(count);
+            rest = others;
+            match call {
+                Call::Intersect => hits[0] = self.bvh.intersect(&rays[0]),
+                Call::Occluded => occluded[0] = self.bvh.occluded(&rays[0]),
+                Call::IntersectBatch => self.bvh.intersect_batch(rays, &mut hits),
+                Call::OccludedBatch => self.bvh.occluded_batch(rays, &mut occluded),
+            }
+            black_box((&hits, &occluded));
+        }
+    }
 }

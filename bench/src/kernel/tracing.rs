@@ -15,19 +15,24 @@ use crate::measure::{median, thread_time};
 /// Turns that all take in each round: what slows the processor for a while slows all.
 const TURNS: usize = 4;
 
+/// The first of the subjects.
+const OURS: usize = 4;
+
 /// A tracer and its name in the table.
 struct Subject<'a> {
     name: &'static str,
     tracer: &'a dyn Tracer,
 }
 
-/// Both qualities of ours, ray by ray and in batches, against Embree of high quality; medium for information.
+/// Both qualities of ours, ray by ray and in batches, against Embree of high quality; for information
+/// medium, and high with the promise that ours makes: no ray passes between triangles that share an edge.
 pub(super) fn run(meshes: &[(MeshName, Model)], plan: Plan, embree: Option<&Embree>, out: &mut dyn Write) -> Outcome {
     for (name, model) in meshes {
         let balanced = Bvh::build(&model.mesh(), Quality::Balanced)?;
         let best = Bvh::build(&model.mesh(), Quality::Best)?;
         let build = |quality| embree.map(|embree| EmbreeScene::build(embree, model, quality)).transpose();
         let (high, medium) = (build(BuildQuality::High)?, build(BuildQuality::Medium)?);
+        let robust = embree.map(|embree| EmbreeScene::build_robust(embree, model)).transpose()?;
         let (balanced_1, balanced_n, best_1, best_n) =
             (OneByOne(&balanced), Batched(&balanced), OneByOne(&best), Batched(&best));
         let mut subjects = vec![
@@ -36,16 +41,18 @@ pub(super) fn run(meshes: &[(MeshName, Model)], plan: Plan, embree: Option<&Embr
             Subject { name: "best", tracer: &best_1 },
             Subject { name: "best, batch", tracer: &best_n },
         ];
-        if let (Some(high), Some(medium)) = (&high, &medium) {
+        if let (Some(high), Some(robust), Some(medium)) = (&high, &robust, &medium) {
             subjects.push(Subject { name: "Embree high", tracer: high });
+            subjects.push(Subject { name: "Embree robust", tracer: robust });
             subjects.push(Subject { name: "Embree medium", tracer: medium });
         }
         let sets = sets(model, &balanced, plan.resolution);
         let results: Vec<_> = sets.iter().map(|set| measure(set, &subjects, plan.rounds)).collect();
         writeln!(out, "\n### {}, {} triangles\n", name.label(), model.triangles.len())?;
         rates(&sets, &subjects, &results, out)?;
-        if high.is_some() {
-            ratios(&sets, &subjects, &results, out)?;
+        if embree.is_some() {
+            ratios("Embree high", &subjects, &sets, &subjects, &results, out)?;
+            ratios("Embree robust", &subjects[..OURS], &sets, &subjects, &results, out)?;
         }
         writeln!(out, "\nDiffering from the first column, of all rays:\n")?;
         differences(&sets, &subjects, &results, out)?;
@@ -84,18 +91,25 @@ fn rates(sets: &[RaySet], subjects: &[Subject<'_>], results: &[Measured], out: &
     Ok(())
 }
 
-/// Medians of the ratios of each round. Embree of high quality is 1.
-fn ratios(sets: &[RaySet], subjects: &[Subject<'_>], results: &[Measured], out: &mut dyn Write) -> Outcome {
-    let Some(yardstick) = subjects.iter().position(|subject| subject.name == "Embree high") else {
+/// Medians of the ratios of each round to the yardstick's, for some of the subjects.
+fn ratios(
+    yardstick: &str,
+    columns: &[Subject<'_>],
+    sets: &[RaySet],
+    subjects: &[Subject<'_>],
+    results: &[Measured],
+    out: &mut dyn Write,
+) -> Outcome {
+    let Some(position) = subjects.iter().position(|subject| subject.name == yardstick) else {
         return Ok(());
     };
     writeln!(out)?;
-    header("over Embree high", subjects, out)?;
-    let mut logs = vec![0.0; subjects.len()];
+    header(&format!("over {yardstick}"), columns, out)?;
+    let mut logs = vec![0.0; columns.len()];
     for (set, result) in sets.iter().zip(results) {
-        let theirs = &result.seconds[yardstick];
+        let theirs = &result.seconds[position];
         let ratio = |ours: &Vec<f64>| median(theirs.iter().zip(ours).map(|(theirs, ours)| theirs / ours).collect());
-        let ratios: Vec<f64> = result.seconds.iter().map(ratio).collect();
+        let ratios: Vec<f64> = result.seconds.iter().take(columns.len()).map(ratio).collect();
         for (log, ratio) in logs.iter_mut().zip(&ratios) {
             *log += ratio.ln() / sets.len() as f64;
         }
