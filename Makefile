@@ -25,7 +25,7 @@ test-arm:
 		set -x; \
 		CARGO_TARGET_AARCH64_UNKNOWN_LINUX_GNU_LINKER=aarch64-linux-gnu-gcc \
 		CARGO_TARGET_AARCH64_UNKNOWN_LINUX_GNU_RUNNER="qemu-aarch64 -L /usr/aarch64-linux-gnu" \
-		PROPTEST_CASES=52500 \
+		PROPTEST_CASES=50 \
 		cargo test --locked -p eyebeam-bvh --target $(ARM) --lib --test memory --test properties; \
 	else \
 		echo "test-arm: SKIPPED. It needs the Debian packages gcc-aarch64-linux-gnu, libc6-dev-arm64-cross and qemu-user," \

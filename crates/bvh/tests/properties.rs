@@ -1,6 +1,6 @@
 //! What holds for every scene and every ray, on scenes and rays that proptest makes up and cuts down where one fails.
 //!
-//! `PROPTEST_CASES` says how many scenes (of 32 rays each); the seed is fixed unless `PROPTEST_RNG_SEED` is set.
+//! `PROPTEST_CASES` says how many scenes (of 64 rays each); the seed is fixed unless `PROPTEST_RNG_SEED` is set.
 
 use std::sync::Arc;
 
@@ -17,7 +17,7 @@ fn config() -> ProptestConfig {
     let given = ProptestConfig::default();
     let is_set = |name: &str| std::env::var_os(name).is_some();
     ProptestConfig {
-        cases: if is_set("PROPTEST_CASES") { given.cases } else { 2000 },
+        cases: if is_set("PROPTEST_CASES") { given.cases } else { 1000 },
         rng_seed: if is_set("PROPTEST_RNG_SEED") { given.rng_seed } else { RngSeed::Fixed(1) },
         failure_persistence: None,
         ..given

@@ -13,11 +13,6 @@ pub(crate) use corners::{Block, Corners, View};
 pub(crate) use spheres::meets_spheres;
 
 use crate::ray::{ORDERS, Ray, longest};
-use crate::simd::Simd;
-
-/// Rounding errors of the sums of products in these tests, relative to their largest factors: about 20 roundings each, and
-/// fourfold safety.
-const ROUNDING: f32 = 40.0 * f32::EPSILON;
 
 /// More than products lose that are too small for single precision, for factors up to 1e14.
 const UNDERFLOW: f32 = 1e-30;
@@ -59,16 +54,6 @@ impl FilterRay {
             o_error,
         }
     }
-
-    #[inline(always)]
-    fn o<const N: usize, S: Simd<N>>(&self, s: S) -> [S::F32; 3] {
-        each(|axis| s.splat(self.o[axis]))
-    }
-
-    #[inline(always)]
-    fn d<const N: usize, S: Simd<N>>(&self, s: S) -> [S::F32; 3] {
-        each(|axis| s.splat(self.d[axis]))
-    }
 }
 
 /// One value for each axis. The standard library's `map` is not always inlined, and then nothing below it can be: instructions
@@ -76,20 +61,4 @@ impl FilterRay {
 #[inline(always)]
 pub(crate) fn each<T>(f: impl Fn(usize) -> T) -> [T; 3] {
     [f(0), f(1), f(2)]
-}
-
-#[inline(always)]
-fn sub3<const N: usize, S: Simd<N>>(s: S, a: [S::F32; 3], b: [S::F32; 3]) -> [S::F32; 3] {
-    each(|axis| s.sub(a[axis], b[axis]))
-}
-
-#[inline(always)]
-fn dot<const N: usize, S: Simd<N>>(s: S, a: [S::F32; 3], b: [S::F32; 3]) -> S::F32 {
-    s.mul_add(a[0], b[0], s.mul_add(a[1], b[1], s.mul(a[2], b[2])))
-}
-
-/// The largest component, by size.
-#[inline(always)]
-fn largest<const N: usize, S: Simd<N>>(s: S, a: [S::F32; 3]) -> S::F32 {
-    s.max(s.abs(a[0]), s.max(s.abs(a[1]), s.abs(a[2])))
 }

@@ -24,13 +24,13 @@ pub(super) fn test_leaf<const ANY: bool, C: Cpu, A: Accept>(
             let b = &tree.triangles[block];
             let corners = View::<LANES, C>::new(cpu, ray).points(&b.points);
             let met = Corners::meet(cpu, ray, b.block(), corners, search.range());
-            leaf.take::<ANY, LANES, 3, _>(cpu, met, search, accept)
+            leaf.take::<ANY, LANES, 3, _, _>(cpu, met, search, accept)
         }
         Kind::FewTriangles => {
             let b = &tree.few_triangles[block];
             let corners = View::<FEW, C>::new(cpu, ray).points(&b.points);
             let met = Corners::meet(cpu, ray, b.block(), corners, search.range());
-            leaf.take::<ANY, FEW, 3, _>(cpu, met, search, accept)
+            leaf.take::<ANY, FEW, 3, _, _>(cpu, met, search, accept)
         }
         _ => cpu.call(OtherLeaf::<ANY, A> { leaf, ray, search, accept }),
     }
@@ -56,7 +56,7 @@ impl<const ANY: bool, A: Accept> Task for OtherLeaf<'_, ANY, A> {
                 let b = &tree.quads[block];
                 let corners = View::<LANES, C>::new(cpu, ray).quad(&b.points);
                 let met = Corners::meet(cpu, ray, b.block(), corners, search.range());
-                leaf.take::<ANY, LANES, 4, _>(cpu, met, search, accept)
+                leaf.take::<ANY, LANES, 4, _, _>(cpu, met, search, accept)
             }
             Kind::Spheres => {
                 let met = meets_spheres::<LANES, C>(cpu, ray, &tree.spheres[block], search.t_max());
@@ -66,7 +66,7 @@ impl<const ANY: bool, A: Accept> Task for OtherLeaf<'_, ANY, A> {
                 let (b, time) = (&tree.moving[block], search.ray.time);
                 let corners = View::<FEW, C>::new(cpu, ray).points(&b.points_at(time));
                 let met = Corners::meet(cpu, ray, b.block_at(time), corners, search.range());
-                leaf.take::<ANY, FEW, 3, _>(cpu, met, search, accept)
+                leaf.take::<ANY, FEW, 3, _, _>(cpu, met, search, accept)
             }
             Kind::Instance => test_instance::<ANY>(tree, block, search, accept),
             Kind::Triangles | Kind::FewTriangles | Kind::Nothing => false,
@@ -84,17 +84,18 @@ struct Leaf<'a> {
 impl Leaf<'_> {
     /// Notes certain hits, and tests what may be hit.
     #[inline(always)]
-    fn take<const ANY: bool, const N: usize, const M: usize, S: Simd<N>>(
+    fn take<const ANY: bool, const N: usize, const M: usize, S: Simd<N>, A: Accept>(
         &self,
         s: S,
         met: Option<Corners<N, M, S>>,
         search: &mut Search,
-        accept: &impl Accept,
+        accept: &A,
     ) -> bool {
         let Some(corners) = met else {
             return false;
         };
-        if !accept_everything(accept) {
+        // Whether a hit is accepted is known only when it is known exactly.
+        if !A::EVERYTHING {
             return self.test::<ANY>(corners.met, search, accept);
         }
         let certain = corners.certain(s, search.t_max());
@@ -131,11 +132,6 @@ impl Leaf<'_> {
         }
         false
     }
-}
-
-#[inline(always)]
-fn accept_everything<A: Accept>(_: &A) -> bool {
-    A::EVERYTHING
 }
 
 /// Goes on within an instance.
