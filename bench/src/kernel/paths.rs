@@ -80,7 +80,7 @@ fn measure(job: &Job<'_>, rounds: usize) -> Result<[Vec<f64>; WAYS.len()], &'sta
         let mut pictures = WAYS.map(|_| vec![0.0; job.camera.pixels() as usize]);
         for turn in 0..TURNS {
             for ((way, picture), seconds) in zip(WAYS, &mut pictures).zip(&mut seconds) {
-                let mut kernel = Kernel::<false>::new(job.bvh, way.flies);
+                let mut kernel = Kernel::new(job.bvh, way.flies, false);
                 seconds[round] += thread_time(|| job.trace(way.batch, turn, picture, &mut kernel)).as_secs_f64();
             }
         }
@@ -94,7 +94,7 @@ fn measure(job: &Job<'_>, rounds: usize) -> Result<[Vec<f64>; WAYS.len()], &'sta
 
 /// The rays of a picture, and the seconds that the kernel takes for them by themselves.
 fn replay(job: &Job<'_>, way: &Way, rounds: usize) -> (usize, f64) {
-    let mut log = Kernel::<true>::new(job.bvh, way.flies);
+    let mut log = Kernel::new(job.bvh, way.flies, true);
     let mut picture = vec![0.0; job.camera.pixels() as usize];
     (0..TURNS).for_each(|turn| job.trace(way.batch, turn, &mut picture, &mut log));
     (log.rays.len(), median((0..rounds).map(|_| thread_time(|| log.replay()).as_secs_f64()).collect()))
@@ -137,13 +137,7 @@ struct Job<'a> {
 
 impl Job<'_> {
     /// Adds the samples of one turn to the picture: depth-first, or in batches of some size.
-    fn trace<const LOG: bool>(
-        &self,
-        batch: Option<usize>,
-        turn: u32,
-        picture: &mut [f64],
-        kernel: &mut Kernel<'_, LOG>,
-    ) {
+    fn trace(&self, batch: Option<usize>, turn: u32, picture: &mut [f64], kernel: &mut Kernel<'_>) {
         let paths = self.camera.pixels() * SPP / TURNS;
         let paths = turn * paths..(turn + 1) * paths;
         match batch {
@@ -169,7 +163,7 @@ impl Job<'_> {
         (connection, Ray::new(p, cosine_direction(n, path.random(2 * depth + 2).0)))
     }
 
-    fn depth_first<const LOG: bool>(&self, paths: Range<u32>, picture: &mut [f64], kernel: &mut Kernel<'_, LOG>) {
+    fn depth_first(&self, paths: Range<u32>, picture: &mut [f64], kernel: &mut Kernel<'_>) {
         for path in paths.map(Path::new) {
             let (mut ray, mut beta, mut l) = (self.camera_ray(path), 1.0, 0.0);
             for depth in 0..DEPTH {
@@ -190,13 +184,7 @@ impl Job<'_> {
         }
     }
 
-    fn batches<const LOG: bool>(
-        &self,
-        paths: Range<u32>,
-        size: usize,
-        picture: &mut [f64],
-        kernel: &mut Kernel<'_, LOG>,
-    ) {
+    fn batches(&self, paths: Range<u32>, size: usize, picture: &mut [f64], kernel: &mut Kernel<'_>) {
         let [mut batch, mut next, mut shadows] = [(); 3].map(|()| Queue::default());
         let (mut hits, mut occluded) = (vec![None; size], vec![false; size]);
         let mut radiance = vec![0.0; size];

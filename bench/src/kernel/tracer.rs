@@ -112,22 +112,23 @@ enum Call {
 }
 
 /// The kernel; it may log what it is asked, to answer all of it again with nothing in between.
-pub(crate) struct Kernel<'b, const LOG: bool> {
+pub(crate) struct Kernel<'b> {
     bvh: &'b Bvh,
     /// Whether it gets batches as such, or ray by ray.
     flies: bool,
+    logs: bool,
     calls: Vec<(Call, usize)>,
     pub(crate) rays: Vec<Ray>,
 }
 
-impl<'b, const LOG: bool> Kernel<'b, LOG> {
-    pub(crate) fn new(bvh: &'b Bvh, flies: bool) -> Self {
-        Self { bvh, flies, calls: Vec::new(), rays: Vec::new() }
+impl<'b> Kernel<'b> {
+    pub(crate) fn new(bvh: &'b Bvh, flies: bool, logs: bool) -> Self {
+        Self { bvh, flies, logs, calls: Vec::new(), rays: Vec::new() }
     }
 
     #[inline(always)]
     fn log(&mut self, call: Call, rays: &[Ray]) {
-        if LOG {
+        if self.logs {
             self.calls.push((call, rays.len()));
             self.rays.extend_from_slice(rays);
         }
