@@ -239,6 +239,7 @@ fuzz_target!(|input: Input| {
         let tree = build(&lists, |scene| Some(Bvh::build(scene, quality).ok()?.with_isa(isa)));
         let tree = tree.expect("what one quality builds, all do");
         let (mut hits, mut occluded) = (vec![None; rays.len()], vec![false; rays.len()]);
+        let tree = tree.with_rays_in_flight(true);
         tree.intersect_batch(&rays, &mut hits);
         tree.occluded_batch(&rays, &mut occluded);
         for (i, ray) in rays.iter().enumerate() {

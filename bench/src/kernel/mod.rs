@@ -138,7 +138,7 @@ mod tests {
             answers
         };
         for quality in Quality::ALL {
-            let bvh = Bvh::build(&model.mesh(), quality).unwrap();
+            let bvh = Bvh::build(&model.mesh(), quality).unwrap().with_rays_in_flight(true);
             for set in rays::sets(&model, &list, 48) {
                 assert!(set.rays.len() > 100, "{}", set.name);
                 let expected = ask(&OneByOne(&list), &set);

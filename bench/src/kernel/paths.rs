@@ -51,7 +51,7 @@ pub(super) fn run(meshes: &[(MeshName, &Model)], plan: Plan, out: &mut dyn Write
     let columns = ["paths at a time", "rays per path", "Msamples/s", "over depth-first", "of it traversal"];
     header(out, "mesh", columns.map(str::to_owned).into_iter())?;
     for (name, model) in meshes {
-        let bvh = Bvh::build(&model.mesh(), Quality::Balanced)?;
+        let bvh = Bvh::build(&model.mesh(), Quality::Balanced)?.with_rays_in_flight(true);
         let camera = Camera::new(model, (plan.resolution / 4).max(Camera::TILE));
         let job = Job { model, bvh: &bvh, camera };
         let samples = (camera.pixels() * SPP) as usize;

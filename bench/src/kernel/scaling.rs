@@ -23,7 +23,7 @@ pub(super) fn run(meshes: &[(MeshName, Model)], plan: Plan, embree: Option<&Embr
     let columns = ["kernel", "1 thread, Mrays/s", "2 threads, Mrays/s", "speed-up"];
     header(out, "mesh", columns.map(str::to_owned).into_iter())?;
     for (name, model) in meshes {
-        let bvh = Bvh::build(&model.mesh(), Quality::Balanced)?;
+        let bvh = Bvh::build(&model.mesh(), Quality::Balanced)?.with_rays_in_flight(true);
         let [_, bounce, ..] = sets(model, &bvh, plan.resolution);
         let high = embree.map(|embree| EmbreeScene::build(embree, model, BuildQuality::High)).transpose()?;
         let (one, batched) = (OneByOne(&bvh), Batched(&bvh));

@@ -28,8 +28,8 @@ struct Subject<'a> {
 /// medium, and high with the promise that ours makes: no ray passes between triangles that share an edge.
 pub(super) fn run(meshes: &[(MeshName, Model)], plan: Plan, embree: Option<&Embree>, out: &mut dyn Write) -> Outcome {
     for (name, model) in meshes {
-        let balanced = Bvh::build(&model.mesh(), Quality::Balanced)?;
-        let best = Bvh::build(&model.mesh(), Quality::Best)?;
+        let balanced = Bvh::build(&model.mesh(), Quality::Balanced)?.with_rays_in_flight(true);
+        let best = Bvh::build(&model.mesh(), Quality::Best)?.with_rays_in_flight(true);
         let build = |quality| embree.map(|embree| EmbreeScene::build(embree, model, quality)).transpose();
         let (high, medium) = (build(BuildQuality::High)?, build(BuildQuality::Medium)?);
         let robust = embree.map(|embree| EmbreeScene::build_robust(embree, model)).transpose()?;

@@ -31,6 +31,8 @@ pub struct Bvh {
     pub(crate) cpu: Processor,
     /// Whether rays test everything instead of walking the tree.
     pub(crate) is_list: bool,
+    /// Whether batches keep several rays in flight.
+    flies: bool,
 }
 
 impl Bvh {
@@ -54,7 +56,10 @@ impl Bvh {
         let Built { tree, bounds, stats } = built;
         let reach = if stats.primitives == 0 { 0.0 } else { bounds.lo.abs().max(bounds.hi.abs()).max_element() };
         let nesting = tree.objects.iter().map(|object| object.nesting + 1).max().unwrap_or(0);
-        Self { tree, bounds, stats, nesting, reach, cpu: Isa::detect().processor(), is_list: false }
+        /// In between the trees for which it did not pay and those for which it did (docs/performance.md).
+        const LARGE: usize = 96 << 20;
+        let flies = stats.bytes > LARGE;
+        Self { tree, bounds, stats, nesting, reach, cpu: Isa::detect().processor(), is_list: false, flies }
     }
 
     /// Moves the primitives to where `geometry` has them now, in O(n), in rayon's current pool; the hits are those of a new
@@ -71,7 +76,7 @@ impl Bvh {
             Some(built) => built,
             None => build(geometry, Quality::Balanced)?,
         };
-        *self = Self { cpu: self.cpu, is_list: self.is_list, ..Self::new(built) };
+        *self = Self { cpu: self.cpu, is_list: self.is_list, flies: self.flies, ..Self::new(built) };
         Ok(())
     }
 
@@ -81,13 +86,18 @@ impl Bvh {
     /// # Errors
     /// As for [`build`](Self::build).
     pub fn list(geometry: &(impl Geometry + ?Sized)) -> Result<Self, BuildError> {
-        Ok(Self { is_list: true, ..Self::build(geometry, Quality::Balanced)? })
+        Ok(Self { is_list: true, flies: false, ..Self::build(geometry, Quality::Balanced)? })
     }
 
     /// The same tree, walked with other instructions: the same hits, for comparison. What the processor lacks is not used. Of
     /// objects that instances show, each keeps to its own.
     pub fn with_isa(self, isa: Isa) -> Self {
         Self { cpu: isa.processor(), ..self }
+    }
+
+    /// The same tree, whose batches keep several rays in flight or do not, however large it is: the same hits, for comparison.
+    pub fn with_rays_in_flight(self, flies: bool) -> Self {
+        Self { flies: flies && !self.is_list, ..self }
     }
 
     /// The most instances within each other, 0 without any.
@@ -193,14 +203,14 @@ impl Bvh {
     }
 
     /// As [`intersect`](Self::intersect), for many rays that go different ways, such as those that surfaces have scattered:
-    /// `hits[i]` is what `rays[i]` finds. In large trees, several are in flight at a time: faster for such rays, and slower for
-    /// rays that go together. It runs on the thread that calls it.
+    /// `hits[i]` is what `rays[i]` finds. In trees above 96 MiB, several are in flight at a time: faster for such rays, and slower
+    /// for rays that go together. It runs on the thread that calls it.
     ///
     /// # Panics
     /// If there are fewer `hits` than `rays`.
     pub fn intersect_batch(&self, rays: &[Ray], hits: &mut [Option<Hit>]) {
         let hits = &mut hits[..rays.len()];
-        if self.is_worth_flying() {
+        if self.flies {
             self.cpu.call(Flight::<false, _> { bvh: self, rays, land: |index: usize, _, hit| hits[index] = hit });
         } else {
             hits.iter_mut().zip(rays).for_each(|(hit, ray)| *hit = self.intersect(ray));
@@ -214,7 +224,7 @@ impl Bvh {
     /// If there are fewer `occluded` than `rays`.
     pub fn occluded_batch(&self, rays: &[Ray], occluded: &mut [bool]) {
         let occluded = &mut occluded[..rays.len()];
-        if self.is_worth_flying() {
+        if self.flies {
             self.cpu.call(Flight::<true, _> {
                 bvh: self,
                 rays,
@@ -223,13 +233,6 @@ impl Bvh {
         } else {
             occluded.iter_mut().zip(rays).for_each(|(occluded, ray)| *occluded = self.occluded(ray));
         }
-    }
-
-    /// Whether the tree is so large that rays wait for memory.
-    fn is_worth_flying(&self) -> bool {
-        /// About the memory near a core.
-        const NEAR: usize = 1 << 20;
-        !self.is_list && self.stats.bytes > NEAR
     }
 
     /// What the tree is made of, in O(1).

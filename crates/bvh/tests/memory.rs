@@ -42,8 +42,9 @@ fn ray(i: usize, shapes: &[Primitive]) -> Ray {
 /// Traces the rays in every way that there is.
 fn trace(bvh: &Bvh, rays: &[Ray]) -> Vec<Option<(u32, u32)>> {
     let (mut hits, mut occluded) = (vec![None; rays.len()], vec![false; rays.len()]);
-    bvh.intersect_batch(rays, &mut hits);
-    bvh.occluded_batch(rays, &mut occluded);
+    let flying = bvh.clone().with_rays_in_flight(true);
+    flying.intersect_batch(rays, &mut hits);
+    flying.occluded_batch(rays, &mut occluded);
     let single: Vec<_> = rays.iter().map(|ray| bvh.intersect(ray)).collect();
     assert_eq!(single, hits);
     assert!(rays.iter().zip(&hits).all(|(ray, hit)| bvh.occluded(ray) == hit.is_some()));

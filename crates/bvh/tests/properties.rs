@@ -262,6 +262,7 @@ proptest! {
         for quality in Quality::ALL {
             for tree in scene.trees(quality) {
                 let (mut hits, mut occluded) = (vec![None; RAYS], [false; RAYS]);
+                let tree = tree.with_rays_in_flight(true);
                 tree.intersect_batch(&rays, &mut hits);
                 tree.occluded_batch(&rays, &mut occluded);
                 for (i, ray) in rays.iter().enumerate() {

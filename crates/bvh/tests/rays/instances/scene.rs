@@ -230,6 +230,7 @@ pub(crate) fn assert_same_as_list(name: &str, scene: &Scene, rays: &[Ray]) -> us
         assert_eq!(tree.bounds(), list.bounds());
         assert_eq!(tree.validate(), Ok(()));
         let (mut hits, mut occluded) = (vec![None; rays.len()], vec![false; rays.len()]);
+        let tree = tree.with_rays_in_flight(true);
         tree.intersect_batch(rays, &mut hits);
         tree.occluded_batch(rays, &mut occluded);
         for (i, ray) in rays.iter().enumerate() {
