@@ -3,7 +3,7 @@
 //! A hit that is certain need not be known exactly until it is compared with another at about the same distance. Most are
 //! never: so most rays make one exact test.
 
-use crate::ray::{Hit, Ray, RayF64};
+use crate::ray::{Hit, PrimHit, Ray, RayF64};
 use crate::wide::{Kind, Tree};
 
 /// Where the tree keeps a primitive.
@@ -147,13 +147,19 @@ impl Search {
     #[inline(always)]
     fn test_now(&mut self, tree: &Tree, slot: Slot, accept: &impl Accept) {
         let (kind, block, lane) = slot.unpack();
-        let hit = tree.intersect(kind, block, lane, &self.ray);
-        let Some(hit) = hit.filter(|hit| hit.t as f32 <= self.nearest.t) else {
-            return;
-        };
+        if let Some(hit) = tree.intersect(kind, block, lane, &self.ray) {
+            self.offer(&hit, tree.id(kind, block, lane), slot, accept);
+        }
+    }
+
+    /// Takes an exact hit if it counts; nothing must be pending.
+    #[inline(always)]
+    pub(crate) fn offer(&mut self, hit: &PrimHit, prim: u32, slot: Slot, accept: &impl Accept) {
         let t = (hit.t as f32).max(self.floor);
-        let instances = self.instances;
-        let hit = Hit { t, prim: tree.id(kind, block, lane), u: hit.u as f32, v: hit.v as f32, instances, slot };
+        if t > self.nearest.t {
+            return;
+        }
+        let hit = Hit { t, prim, u: hit.u as f32, v: hit.v as f32, instances: self.instances, slot };
         let nearest = &self.nearest;
         let counts = t > 0.0 && (t < nearest.t || (t == nearest.t && hit.precedes(nearest)));
         if counts && accept.accepts(&hit) {

@@ -154,7 +154,7 @@ struct Seen<const N: usize, const M: usize, S: Simd<N>> {
 
 impl<const N: usize, const M: usize, S: Simd<N>> Seen<N, M, S> {
     /// At what distances they are met. The point is between the corners, so its distance is between theirs; for large
-    /// primitives, the mean of their distances with the opposite areas as weights is closer.
+    /// primitives, the mean of their distances with the areas as weights is closer.
     #[inline(always)]
     fn at(
         self,
@@ -163,22 +163,19 @@ impl<const N: usize, const M: usize, S: Simd<N>> Seen<N, M, S> {
         (least, most): (S::F32, S::F32),
         [t_min, t_max]: [f32; 2],
     ) -> Option<Corners<N, M, S>> {
-        let Self { s, corners, sides, reach, slack, size } = self;
+        let Self { s, corners, reach, slack, size, .. } = self;
         let along_inv = s.splat(-ray.along_inv);
         let along: [S::F32; M] = corners_of(|i| s.mul(corners[i][2], along_inv));
         let slack_along = s.mul(reach, s.splat(ALONG * ray.along_inv.abs()));
         let mut near = s.sub(fold(along, |a, b| s.min(a, b)), slack_along);
         let mut far = s.add(fold(along, |a, b| s.max(a, b)), slack_along);
-        let area = fold(sides, |a, b| s.add(a, b));
-        if M == 3 {
-            let mean = s.mul_add(sides[1], along[0], s.mul_add(sides[2], along[1], s.mul(sides[0], along[2])));
-            let area_inv = s.div(s.splat(1.0), area);
-            let mean = s.mul(mean, area_inv);
-            let off = s.mul(s.mul(s.mul(slack, s.abs(area_inv)), s.splat(8.0 * ray.along_inv.abs())), reach);
-            // Of NaN and a number, the number.
-            near = s.max(s.sub(mean, off), near);
-            far = s.min(s.add(mean, off), far);
-        }
+        let (area, weighed) = self.weigh(along);
+        let area_inv = s.div(s.splat(1.0), area);
+        let mean = s.mul(weighed, area_inv);
+        let off = s.mul(s.mul(s.mul(slack, s.abs(area_inv)), s.splat(8.0 * ray.along_inv.abs())), reach);
+        // Of NaN and a number, the number.
+        near = s.max(s.sub(mean, off), near);
+        far = s.min(s.add(mean, off), far);
         let before = s.not_gt(near, s.splat(t_max));
         let met = met & s.bits(s.and(before, s.not_gt(s.splat(0.0), far)));
         if met == 0 {
@@ -193,6 +190,21 @@ impl<const N: usize, const M: usize, S: Simd<N>> Seen<N, M, S> {
         let certain = s.and(s.and(inside, nearby), s.and(finite, s.gt(near, s.splat(t_min))));
         let certain = met & s.bits(certain);
         Some(Corners { met, certain, near, far })
+    }
+
+    /// The area, and the mean of the corners' distances times it.
+    #[inline(always)]
+    fn weigh(&self, along: [S::F32; M]) -> (S::F32, S::F32) {
+        let (s, sides) = (self.s, &self.sides);
+        if M == 3 {
+            let area = s.add(s.add(sides[0], sides[1]), sides[2]);
+            return (area, s.mul_add(sides[1], along[0], s.mul_add(sides[2], along[1], s.mul(sides[0], along[2]))));
+        }
+        // From the first corner of a parallelogram along both edges, by the areas at the others.
+        let area = s.add(sides[0], sides[2]);
+        let by_edge = s.mul(sides[M - 1], s.sub(along[1], along[0]));
+        let by_both = s.mul_add(sides[0], s.sub(along[M - 1], along[0]), by_edge);
+        (area, s.mul_add(area, along[0], by_both))
     }
 }
 

@@ -19,18 +19,14 @@ struct Vertex {
     along: f64,
 }
 
-/// The vertices in the space of the ray, and the distance at which the ray has moved by 1 along its axis.
+/// A vertex as the ray sees it.
 #[inline(always)]
-fn project<const N: usize>(vertices: [DVec3; N], ray: &RayF64) -> ([Vertex; N], f64) {
+fn see(p: DVec3, ray: &RayF64) -> Vertex {
     // The axis of the largest component is the last: shears are at most 1.
     let [x, y, z] = ray.order;
-    let (o, shear) = (ray.o.to_array(), DVec2::from_array(ray.shear));
-    let vertex = |p: DVec3| {
-        let p = p.to_array();
-        let along = p[z] - o[z];
-        Vertex { across: DVec2::new(p[x] - o[x], p[y] - o[y]) - shear * along, along }
-    };
-    (vertices.map(vertex), ray.along_inv)
+    let (p, o) = (p.to_array(), ray.o.to_array());
+    let along = p[z] - o[z];
+    Vertex { across: DVec2::new(p[x] - o[x], p[y] - o[y]) - DVec2::from_array(ray.shear) * along, along }
 }
 
 /// Twice the area that the origin and an edge span, positive if the origin is to its left.
@@ -46,35 +42,51 @@ fn side_of_rest(from: DVec2, to: DVec2) -> f64 {
     if x == y { from.x.mul_add(to.y, -x) - from.y.mul_add(to.x, -y) } else { x - y }
 }
 
-/// The hit of a triangle: distance, and weights of the second and the third vertex.
+/// The areas at the edges of a polygon, if the ray passes it on the inside.
 #[inline(always)]
-fn weigh([a, b, c]: [Vertex; 3], along_inv: f64) -> Option<(f64, [f64; 2])> {
-    let edges = [(b.across, c.across), (c.across, a.across), (a.across, b.across)];
-    let [mut u, mut v, mut w] = edges.map(|(from, to)| side(from, to));
-    if (u == 0.0) | (v == 0.0) | (w == 0.0) {
-        [u, v, w] = edges.map(|(from, to)| side_of_rest(from, to));
+fn areas<const N: usize>(edges: [(DVec2, DVec2); N]) -> Option<[f64; N]> {
+    let mut areas = [0.0; N];
+    let (mut left, mut right, mut on_edge) = (false, false, false);
+    for i in 0..N {
+        areas[i] = side(edges[i].0, edges[i].1);
+        (left, right, on_edge) = (left | (areas[i] > 0.0), right | (areas[i] < 0.0), on_edge | (areas[i] == 0.0));
     }
-    let is_split = ((u < 0.0) | (v < 0.0) | (w < 0.0)) & ((u > 0.0) | (v > 0.0) | (w > 0.0));
-    let sum = u + v + w;
-    // Seen as a line, a triangle is not hit.
-    if is_split | (sum == 0.0) {
-        return None;
+    if on_edge {
+        (areas, left, right) = decide(edges);
     }
-    let t = (u * a.along + v * b.along + w * c.along) / sum * along_inv;
-    (t > 0.0).then_some((t, [v / sum, w / sum]))
+    (!(left & right)).then_some(areas)
+}
+
+/// As [`areas`], exactly, with whether some are positive and some are negative.
+#[cold]
+fn decide<const N: usize>(edges: [(DVec2, DVec2); N]) -> ([f64; N], bool, bool) {
+    let areas = edges.map(|(from, to)| side_of_rest(from, to));
+    (areas, areas.iter().any(|&x| x > 0.0), areas.iter().any(|&x| x < 0.0))
 }
 
 /// The hit of the triangle with these vertices.
 #[inline(always)]
-pub(super) fn intersect_triangle(vertices: [DVec3; 3], ray: &RayF64) -> Option<PrimHit> {
-    let (vertices, along_inv) = project(vertices, ray);
-    weigh(vertices, along_inv).map(|(t, [u, v])| PrimHit { t, u, v })
+pub(super) fn intersect_triangle([a, b, c]: [DVec3; 3], ray: &RayF64) -> Option<PrimHit> {
+    let (a, b, c) = (see(a, ray), see(b, ray), see(c, ray));
+    let [u, v, w] = areas([(b.across, c.across), (c.across, a.across), (a.across, b.across)])?;
+    let sum = u + v + w;
+    let t = (u * a.along + v * b.along + w * c.along) / sum * ray.along_inv;
+    // Seen as a line, a triangle is not hit.
+    (sum != 0.0 && t > 0.0).then_some(PrimHit { t, u: v / sum, v: w / sum })
 }
 
-/// The hit of the parallelogram with this corner and these edges: of two triangles that share a diagonal.
+/// The hit of the parallelogram with this corner and these edges. The coordinate along an edge is the share that the area at one
+/// of the other two has in both.
 #[inline(always)]
 pub(super) fn intersect_quad(corner: DVec3, [u, v]: [DVec3; 2], ray: &RayF64) -> Option<PrimHit> {
-    let ([a, b, c, d], along_inv) = project([corner, corner + u, corner + u + v, corner + v], ray);
-    let below = weigh([a, b, c], along_inv).map(|(t, [b, c])| PrimHit { t, u: (b + c).min(1.0), v: c });
-    below.or_else(|| weigh([a, c, d], along_inv).map(|(t, [c, d])| PrimHit { t, u: c, v: (c + d).min(1.0) }))
+    let (a, b) = (see(corner, ray), see(corner + u, ray));
+    let (c, d) = (see(corner + u + v, ray), see(corner + v, ray));
+    let edges = [(a.across, b.across), (b.across, c.across), (c.across, d.across), (d.across, a.across)];
+    let [ab, bc, cd, da] = areas(edges)?;
+    let (width, height) = (da + bc, ab + cd);
+    let (u, v) = (da / width, ab / height);
+    let near = a.along * (1.0 - u) + b.along * u;
+    let far = d.along * (1.0 - u) + c.along * u;
+    let t = (near * (1.0 - v) + far * v) * ray.along_inv;
+    (width != 0.0 && height != 0.0 && t > 0.0).then_some(PrimHit { t, u, v })
 }

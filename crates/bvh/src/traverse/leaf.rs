@@ -3,7 +3,7 @@
 use crate::filter::{Corners, FilterRay, View, meets_spheres};
 use crate::search::{Accept, Search, Slot};
 use crate::simd::{Cpu, LANES, Simd, Task};
-use crate::traverse::Walk;
+use crate::traverse::{Walk, take_lane};
 use crate::wide::{FEW, Kind, Tree};
 
 /// Tests the primitives of a leaf; whether one is hit, if `ANY`. All but triangles are tested out of line, so that the walk
@@ -59,8 +59,18 @@ impl<const ANY: bool, A: Accept> Task for OtherLeaf<'_, ANY, A> {
                 leaf.take::<ANY, LANES, 4, _, _>(cpu, met, search, accept)
             }
             Kind::Spheres => {
-                let met = meets_spheres::<LANES, C>(cpu, ray, &tree.spheres[block], search.t_max());
-                leaf.test::<ANY>(met, search, accept)
+                let spheres = &tree.spheres[block];
+                let mut met = meets_spheres::<LANES, C>(cpu, ray, spheres, search.t_max());
+                if met != 0 {
+                    search.settle(tree, accept);
+                }
+                while met != 0 {
+                    let lane = take_lane(&mut met);
+                    if let Some(hit) = spheres.sphere(lane).intersect(&search.ray) {
+                        search.offer(&hit, spheres.id[lane], Slot::new(Kind::Spheres, block, lane), accept);
+                    }
+                }
+                ANY && search.found()
             }
             Kind::Moving => {
                 let (b, time) = (&tree.moving[block], search.ray.time);
@@ -105,8 +115,7 @@ impl Leaf<'_> {
         let (near, far) = corners.distances(s);
         let mut met = corners.met;
         while met != 0 {
-            let lane = met.trailing_zeros() as usize & (N - 1);
-            met &= met - 1;
+            let lane = take_lane(&mut met) & (N - 1);
             let slot = Slot::new(self.kind, self.block, lane);
             if certain >> lane & 1 == 0 {
                 search.test(self.tree, slot, accept);
@@ -123,8 +132,7 @@ impl Leaf<'_> {
     #[inline(always)]
     fn test<const ANY: bool>(&self, mut met: u32, search: &mut Search, accept: &impl Accept) -> bool {
         while met != 0 {
-            let lane = met.trailing_zeros() as usize & (LANES - 1);
-            met &= met - 1;
+            let lane = take_lane(&mut met);
             search.test(self.tree, Slot::new(self.kind, self.block, lane), accept);
             if ANY && search.found() {
                 return true;
