@@ -101,22 +101,13 @@ impl Hit {
 pub(crate) struct RayF64 {
     pub(crate) o: DVec3,
     pub(crate) d: DVec3,
-    /// The axes, that of the largest component of `d` last.
-    pub(crate) order: [usize; 3],
-    /// The first two components of `d` in that order, divided by the last, and the inverse of that.
-    pub(crate) shear: [f64; 2],
-    pub(crate) along_inv: f64,
     pub(crate) time: f32,
 }
 
 impl RayF64 {
     #[inline(always)]
     pub(crate) fn new(o: DVec3, d: DVec3, time: f32) -> Self {
-        let order = ORDERS[longest(d.abs().to_array())];
-        let [x, y, z] = order;
-        let along = d.to_array();
-        let along_inv = 1.0 / along[z];
-        Self { o, d, order, shear: [along[x] * along_inv, along[y] * along_inv], along_inv, time }
+        Self { o, d, time }
     }
 
     /// In single precision.

@@ -10,7 +10,7 @@
 
 use glam::{DVec2, DVec3};
 
-use crate::ray::{PrimHit, RayF64};
+use crate::ray::{ORDERS, PrimHit, RayF64, longest};
 
 /// A vertex in the space of the ray: across it, and along the axis that is nearest to its direction.
 #[derive(Clone, Copy)]
@@ -19,14 +19,32 @@ struct Vertex {
     along: f64,
 }
 
-/// A vertex as the ray sees it.
-#[inline(always)]
-fn see(p: DVec3, ray: &RayF64) -> Vertex {
-    // The axis of the largest component is the last: shears are at most 1.
-    let [x, y, z] = ray.order;
-    let (p, o) = (p.to_array(), ray.o.to_array());
-    let along = p[z] - o[z];
-    Vertex { across: DVec2::new(p[x] - o[x], p[y] - o[y]) - DVec2::from_array(ray.shear) * along, along }
+/// How vertices are seen from a ray.
+struct View {
+    o: [f64; 3],
+    /// The axes, that of the largest component of the direction last: shears are at most 1.
+    order: [usize; 3],
+    shear: DVec2,
+    /// The distance at which the ray has moved by 1 along the last axis.
+    along_inv: f64,
+}
+
+impl View {
+    #[inline(always)]
+    fn new(ray: &RayF64) -> Self {
+        let d = ray.d.to_array();
+        let order = ORDERS[longest(d.map(f64::abs))];
+        let [x, y, z] = order;
+        let along_inv = 1.0 / d[z];
+        Self { o: ray.o.to_array(), order, shear: DVec2::new(d[x], d[y]) * along_inv, along_inv }
+    }
+
+    #[inline(always)]
+    fn see(&self, p: DVec3) -> Vertex {
+        let ([x, y, z], o, p) = (self.order, self.o, p.to_array());
+        let along = p[z] - o[z];
+        Vertex { across: DVec2::new(p[x] - o[x], p[y] - o[y]) - self.shear * along, along }
+    }
 }
 
 /// Twice the area that the origin and an edge span, positive if the origin is to its left.
@@ -67,10 +85,11 @@ fn decide<const N: usize>(edges: [(DVec2, DVec2); N]) -> ([f64; N], bool, bool) 
 /// The hit of the triangle with these vertices.
 #[inline(always)]
 pub(super) fn intersect_triangle([a, b, c]: [DVec3; 3], ray: &RayF64) -> Option<PrimHit> {
-    let (a, b, c) = (see(a, ray), see(b, ray), see(c, ray));
+    let view = View::new(ray);
+    let (a, b, c) = (view.see(a), view.see(b), view.see(c));
     let [u, v, w] = areas([(b.across, c.across), (c.across, a.across), (a.across, b.across)])?;
     let sum = u + v + w;
-    let t = (u * a.along + v * b.along + w * c.along) / sum * ray.along_inv;
+    let t = (u * a.along + v * b.along + w * c.along) / sum * view.along_inv;
     // Seen as a line, a triangle is not hit.
     (sum != 0.0 && t > 0.0).then_some(PrimHit { t, u: v / sum, v: w / sum })
 }
@@ -79,14 +98,15 @@ pub(super) fn intersect_triangle([a, b, c]: [DVec3; 3], ray: &RayF64) -> Option<
 /// of the other two has in both.
 #[inline(always)]
 pub(super) fn intersect_quad(corner: DVec3, [u, v]: [DVec3; 2], ray: &RayF64) -> Option<PrimHit> {
-    let (a, b) = (see(corner, ray), see(corner + u, ray));
-    let (c, d) = (see(corner + u + v, ray), see(corner + v, ray));
+    let view = View::new(ray);
+    let (a, b) = (view.see(corner), view.see(corner + u));
+    let (c, d) = (view.see(corner + u + v), view.see(corner + v));
     let edges = [(a.across, b.across), (b.across, c.across), (c.across, d.across), (d.across, a.across)];
     let [ab, bc, cd, da] = areas(edges)?;
     let (width, height) = (da + bc, ab + cd);
     let (u, v) = (da / width, ab / height);
     let near = a.along * (1.0 - u) + b.along * u;
     let far = d.along * (1.0 - u) + c.along * u;
-    let t = (near * (1.0 - v) + far * v) * ray.along_inv;
+    let t = (near * (1.0 - v) + far * v) * view.along_inv;
     (width != 0.0 && height != 0.0 && t > 0.0).then_some(PrimHit { t, u, v })
 }
