@@ -15,18 +15,15 @@ use crate::shape::SurfacePoint;
 use crate::validate::Problem;
 
 /// How rays find what they hit.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum Acceleration {
+    /// Through a hierarchy of boxes, of the quality that suits the picture's size and samples.
+    #[default]
+    Auto,
     /// Through a hierarchy of boxes.
     Tree(Quality),
     /// By a test of everything.
     List,
-}
-
-impl Default for Acceleration {
-    fn default() -> Self {
-        Self::Tree(Quality::default())
-    }
 }
 
 /// A scene that rays can be traced through. After it is built, nothing can fail.
@@ -72,6 +69,7 @@ impl Scene {
             material_of.resize(primitives.len(), material);
         }
         let bvh = match acceleration {
+            Acceleration::Auto => Bvh::build(&primitives, Quality::auto(expected_rays(desc), primitives.len())),
             Acceleration::Tree(quality) => Bvh::build(&primitives, quality),
             Acceleration::List => Bvh::list(&primitives),
         };
@@ -110,4 +108,13 @@ impl Scene {
     pub fn primitive_count(&self) -> usize {
         self.material_of.len()
     }
+}
+
+/// About how many rays the picture takes.
+fn expected_rays(desc: &SceneDesc) -> u64 {
+    /// Of a path.
+    const RAYS: u64 = 4;
+    let render = &desc.render;
+    let pixels = u64::from(render.width) * u64::from(render.height);
+    pixels.saturating_mul(u64::from(render.spp)).saturating_mul(RAYS)
 }
