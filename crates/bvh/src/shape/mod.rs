@@ -63,18 +63,6 @@ impl Primitive {
         }
     }
 
-    /// The box around the shape at all times, wider by a few roundings; `None` for an instance, which needs its object.
-    #[inline]
-    pub(crate) fn shape_bounds(&self) -> Option<Aabb> {
-        match self {
-            Self::Triangle(t) => Some(t.bounds()),
-            Self::Quad(q) => Some(q.bounds()),
-            Self::Sphere(s) => Some(s.bounds()),
-            Self::MovingTriangle(t) => Some(t.bounds()),
-            Self::Instance(_) => None,
-        }
-    }
-
     /// Whether all its numbers are finite; the times of an instance at rest need not be.
     pub(crate) fn is_finite(&self) -> bool {
         match self {
@@ -101,8 +89,11 @@ impl Primitive {
     /// of objects has for it, and [empty](Aabb::EMPTY) if that is nothing.
     pub fn bounds(&self, objects: &[Arc<Bvh>]) -> Aabb {
         match self {
+            Self::Triangle(t) => t.bounds(),
+            Self::Quad(q) => q.bounds(),
+            Self::Sphere(s) => s.bounds(),
+            Self::MovingTriangle(t) => t.bounds(),
             Self::Instance(i) => objects.get(i.object as usize).map_or(Aabb::EMPTY, |object| i.bounds(object)),
-            _ => self.shape_bounds().unwrap_or(Aabb::EMPTY),
         }
     }
 }
