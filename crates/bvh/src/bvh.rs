@@ -8,11 +8,11 @@ use crate::error::BuildError;
 use crate::geometry::Geometry;
 use crate::instance::Instance;
 use crate::ray::{Hit, Ray};
-use crate::search::{Accept, Everything, Search, Where};
+use crate::search::{Everything, Where};
 use crate::shape::Surface;
 use crate::simd::{Isa, Processor};
 use crate::stats::Stats;
-use crate::traverse::{FewSpheres, Flight, Walk};
+use crate::traverse::{Any, FewSpheres, Flight, Nearest};
 use crate::wide::{Child, Kind, SphereBlock, Target, Tree};
 
 /// Primitives sorted for rays.
@@ -153,9 +153,7 @@ impl Bvh {
         if let Some((block, index)) = self.few_spheres() {
             return self.cpu.call(FewSpheres::<false> { block, index, ray });
         }
-        let mut search = Search::new(ray);
-        self.search::<false>(ray, &mut search, &Everything);
-        search.hit()
+        self.cpu.call(Nearest { bvh: self, ray, accept: Everything })
     }
 
     /// As [`intersect`](Self::intersect), but only those hits count that `accept` returns true for: alpha-tested leaves, say.
@@ -167,9 +165,7 @@ impl Bvh {
     /// Takes longer than [`intersect`](Self::intersect), as every hit must be known exactly.
     #[inline]
     pub fn intersect_where(&self, ray: &Ray, accept: impl Fn(&Hit) -> bool) -> Option<Hit> {
-        let mut search = Search::new(ray);
-        self.search::<false>(ray, &mut search, &Where(accept));
-        search.hit()
+        self.cpu.call(Nearest { bvh: self, ray, accept: Where(&accept) })
     }
 
     /// Whether anything is hit with 0 < t ≤ `t_max`: exactly if [`intersect`](Self::intersect) finds something, in less time.
@@ -177,7 +173,7 @@ impl Bvh {
     pub fn occluded(&self, ray: &Ray) -> bool {
         match self.few_spheres() {
             Some((block, index)) => self.cpu.call(FewSpheres::<true> { block, index, ray }).is_some(),
-            None => self.search::<true>(ray, &mut Search::new(ray), &Everything),
+            None => self.cpu.call(Any { bvh: self, ray, accept: Everything }),
         }
     }
 
@@ -185,7 +181,7 @@ impl Bvh {
     /// [`intersect_where`](Self::intersect_where).
     #[inline]
     pub fn occluded_where(&self, ray: &Ray, accept: impl Fn(&Hit) -> bool) -> bool {
-        self.search::<true>(ray, &mut Search::new(ray), &Where(accept))
+        self.cpu.call(Any { bvh: self, ray, accept: Where(&accept) })
     }
 
     /// The only block, if it is one of spheres.
@@ -195,11 +191,6 @@ impl Bvh {
             Target::Leaf(Kind::Spheres, index) if !self.is_list => Some((&self.tree.spheres[index], index)),
             _ => None,
         }
-    }
-
-    #[inline(always)]
-    fn search<const ANY: bool>(&self, ray: &Ray, search: &mut Search, accept: &impl Accept) -> bool {
-        Walk::<ANY, _> { bvh: self, ray, o_error: 0.0, search, accept }.search()
     }
 
     /// As [`intersect`](Self::intersect), for many rays that go different ways, such as those that surfaces have scattered:

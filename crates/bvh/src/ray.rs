@@ -1,6 +1,6 @@
 //! Rays and hits.
 
-use glam::{DVec3, Vec3};
+use glam::{DVec2, DVec3, Vec3};
 
 use crate::aabb::Aabb;
 use crate::search::Slot;
@@ -30,11 +30,11 @@ impl Ray {
 }
 
 /// The axes in cyclic order, each in turn as the last.
-pub(crate) const ORDERS: [[usize; 3]; 3] = [[1, 2, 0], [2, 0, 1], [0, 1, 2]];
+static ORDERS: [[usize; 3]; 3] = [[1, 2, 0], [2, 0, 1], [0, 1, 2]];
 
 /// The axis of the largest of three sizes.
 #[inline(always)]
-pub(crate) fn longest<T: PartialOrd + Copy>(size: [T; 3]) -> usize {
+fn longest(size: [f64; 3]) -> usize {
     let yz = 2 - usize::from(size[1] > size[2]);
     if size[0] > size[yz] { 0 } else { yz }
 }
@@ -102,17 +102,27 @@ pub(crate) struct RayF64 {
     pub(crate) o: DVec3,
     pub(crate) d: DVec3,
     pub(crate) time: f32,
+    /// In single precision, the origin is off by at most a rounding of this: 0 if it is exact.
+    pub(crate) o_error: f32,
+    /// The axes, that of the largest component of the direction last.
+    pub(crate) order: &'static [usize; 3],
+    /// The origin, with its coordinates in that order.
+    pub(crate) turned_o: DVec3,
+    /// The first two components of the direction in that order, divided by the last: at most 1.
+    pub(crate) shear: DVec2,
+    /// The distance at which the ray has moved by 1 along the last axis.
+    pub(crate) along_inv: f64,
 }
 
 impl RayF64 {
     #[inline(always)]
     pub(crate) fn new(o: DVec3, d: DVec3, time: f32) -> Self {
-        Self { o, d, time }
-    }
-
-    /// In single precision.
-    pub(crate) fn rounded(&self) -> Ray {
-        Ray { o: self.o.as_vec3(), d: self.d.as_vec3(), t_max: f32::INFINITY, time: self.time }
+        let order = &ORDERS[longest(d.abs().to_array())];
+        let turned = |v: DVec3| DVec3::new(v[order[0]], v[order[1]], v[order[2]]);
+        let (turned_o, turned_d) = (turned(o), turned(d));
+        let along_inv = 1.0 / turned_d.z;
+        let o_error = o.abs().max_element() as f32;
+        Self { o, d, time, o_error, order, turned_o, shear: turned_d.truncate() * along_inv, along_inv }
     }
 
     /// The distance at which the ray enters a box, if it meets it.
@@ -145,7 +155,7 @@ impl RayF64 {
 impl From<&Ray> for RayF64 {
     #[inline(always)]
     fn from(ray: &Ray) -> Self {
-        Self::new(ray.o.as_dvec3(), ray.d.as_dvec3(), ray.time)
+        Self { o_error: 0.0, ..Self::new(ray.o.as_dvec3(), ray.d.as_dvec3(), ray.time) }
     }
 }
 

@@ -30,7 +30,7 @@ impl Slot {
 }
 
 /// Whether a hit counts, by what the caller knows of the surface.
-pub(crate) trait Accept {
+pub(crate) trait Accept: Copy {
     /// Every hit counts; nobody is asked.
     const EVERYTHING: bool;
 
@@ -38,6 +38,7 @@ pub(crate) trait Accept {
 }
 
 /// Every hit counts.
+#[derive(Clone, Copy)]
 pub(crate) struct Everything;
 
 impl Accept for Everything {
@@ -50,9 +51,10 @@ impl Accept for Everything {
 }
 
 /// Those hits count that a function accepts.
-pub(crate) struct Where<F>(pub(crate) F);
+#[derive(Clone, Copy)]
+pub(crate) struct Where<'a>(pub(crate) &'a dyn Fn(&Hit) -> bool);
 
-impl<F: Fn(&Hit) -> bool> Accept for Where<F> {
+impl Accept for Where<'_> {
     const EVERYTHING: bool = false;
 
     #[inline(always)]
@@ -117,7 +119,7 @@ impl Search {
 
     /// Notes a hit that is certain, whose distance lies between two others, before [`t_max`](Self::t_max).
     #[inline(always)]
-    pub(crate) fn certain(&mut self, tree: &Tree, slot: Slot, near: f32, far: f32, accept: &impl Accept) {
+    pub(crate) fn certain(&mut self, tree: &Tree, slot: Slot, near: f32, far: f32, accept: impl Accept) {
         if self.pending == Slot::NONE || far < self.pending_near {
             self.pending = slot;
             self.pending_near = near;
@@ -129,7 +131,7 @@ impl Search {
 
     /// Tests what is pending.
     #[inline(always)]
-    pub(crate) fn settle(&mut self, tree: &Tree, accept: &impl Accept) {
+    pub(crate) fn settle(&mut self, tree: &Tree, accept: impl Accept) {
         let slot = std::mem::replace(&mut self.pending, Slot::NONE);
         if slot != Slot::NONE {
             self.test_now(tree, slot, accept);
@@ -138,14 +140,14 @@ impl Search {
 
     /// Tests a primitive, after what is pending.
     #[inline(never)]
-    pub(crate) fn test(&mut self, tree: &Tree, slot: Slot, accept: &impl Accept) {
+    pub(crate) fn test(&mut self, tree: &Tree, slot: Slot, accept: impl Accept) {
         self.settle(tree, accept);
         self.test_now(tree, slot, accept);
     }
 
     /// Of hits at the same distance, that of the lowest index counts.
     #[inline(always)]
-    fn test_now(&mut self, tree: &Tree, slot: Slot, accept: &impl Accept) {
+    fn test_now(&mut self, tree: &Tree, slot: Slot, accept: impl Accept) {
         let (kind, block, lane) = slot.unpack();
         if let Some(hit) = tree.intersect(kind, block, lane, &self.ray) {
             self.offer(&hit, tree.id(kind, block, lane), slot, accept);
@@ -154,7 +156,7 @@ impl Search {
 
     /// Takes an exact hit if it counts; nothing must be pending.
     #[inline(always)]
-    pub(crate) fn offer(&mut self, hit: &PrimHit, prim: u32, slot: Slot, accept: &impl Accept) {
+    pub(crate) fn offer(&mut self, hit: &PrimHit, prim: u32, slot: Slot, accept: impl Accept) {
         let t = (hit.t as f32).max(self.floor);
         if t > self.nearest.t {
             return;

@@ -5,14 +5,16 @@
 //! that their distance lies between two bounds.
 
 mod boxes;
-mod corners;
+mod flats;
+mod outline;
 mod spheres;
 
 pub(crate) use boxes::BoxLanes;
-pub(crate) use corners::{Block, Corners, View};
+pub(crate) use flats::{Block, Flats};
+pub(crate) use outline::View;
 pub(crate) use spheres::meets_spheres;
 
-use crate::ray::{ORDERS, Ray, longest};
+use crate::ray::RayF64;
 
 /// More than products lose that are too small for single precision, for factors up to 1e14.
 const UNDERFLOW: f32 = 1e-30;
@@ -25,33 +27,34 @@ pub(crate) struct FilterRay {
     /// Largest component of the direction, by size.
     d_max: f32,
     /// The axes, that of the largest component last.
-    order: [usize; 3],
+    order: &'static [usize; 3],
     /// The origin, with its coordinates in that order.
     turned_o: [f32; 3],
     /// The first two components of the direction in that order, divided by the last, and the inverse of that.
     shear: [f32; 2],
     along_inv: f32,
+    /// Shapes of more than this size look large: their corners are at quite different distances, and the areas that the ray
+    /// spans with them are far above their roundings.
+    large: f32,
     /// The origin is off by at most a rounding of this: 0 if it is exact.
     o_error: f32,
 }
 
 impl FilterRay {
-    /// A ray whose origin is off by at most a rounding of `o_error`.
+    /// A ray in a scene whose coordinates are at most `reach` in size.
     #[inline(always)]
-    pub(crate) fn new(ray: &Ray, o_error: f32) -> Self {
-        let [o, d] = [ray.o.to_array(), ray.d.to_array()];
-        let order = ORDERS[longest(d.map(f32::abs))];
-        let [x, y, z] = order;
-        let along_inv = 1.0 / d[z];
+    pub(crate) fn new(ray: &RayF64, reach: f32) -> Self {
+        let d = ray.d.as_vec3();
         Self {
-            o,
-            d,
-            d_max: d[z].abs(),
-            order,
-            turned_o: [o[x], o[y], o[z]],
-            shear: [d[x] * along_inv, d[y] * along_inv],
-            along_inv,
-            o_error,
+            o: ray.o.as_vec3().to_array(),
+            d: d.to_array(),
+            d_max: d.abs().max_element(),
+            order: ray.order,
+            turned_o: ray.turned_o.as_vec3().to_array(),
+            shear: ray.shear.as_vec2().to_array(),
+            along_inv: ray.along_inv as f32,
+            large: reach / 128.0,
+            o_error: ray.o_error,
         }
     }
 }

@@ -10,7 +10,7 @@
 
 use glam::{DVec2, DVec3};
 
-use crate::ray::{ORDERS, PrimHit, RayF64, longest};
+use crate::ray::{PrimHit, RayF64};
 
 /// A vertex in the space of the ray: across it, and along the axis that is nearest to its direction.
 #[derive(Clone, Copy)]
@@ -19,31 +19,12 @@ struct Vertex {
     along: f64,
 }
 
-/// How vertices are seen from a ray.
-struct View {
-    o: [f64; 3],
-    /// The axes, that of the largest component of the direction last: shears are at most 1.
-    order: [usize; 3],
-    shear: DVec2,
-    /// The distance at which the ray has moved by 1 along the last axis.
-    along_inv: f64,
-}
-
-impl View {
+impl Vertex {
     #[inline(always)]
-    fn new(ray: &RayF64) -> Self {
-        let d = ray.d.to_array();
-        let order = ORDERS[longest(d.map(f64::abs))];
-        let [x, y, z] = order;
-        let along_inv = 1.0 / d[z];
-        Self { o: ray.o.to_array(), order, shear: DVec2::new(d[x], d[y]) * along_inv, along_inv }
-    }
-
-    #[inline(always)]
-    fn see(&self, p: DVec3) -> Vertex {
-        let ([x, y, z], o, p) = (self.order, self.o, p.to_array());
-        let along = p[z] - o[z];
-        Vertex { across: DVec2::new(p[x] - o[x], p[y] - o[y]) - self.shear * along, along }
+    fn seen_from(ray: &RayF64, p: DVec3) -> Self {
+        let ([x, y, z], o, p) = (*ray.order, ray.turned_o, p.to_array());
+        let along = p[z] - o.z;
+        Self { across: DVec2::new(p[x] - o.x, p[y] - o.y) - ray.shear * along, along }
     }
 }
 
@@ -85,11 +66,11 @@ fn decide<const N: usize>(edges: [(DVec2, DVec2); N]) -> ([f64; N], bool, bool) 
 /// The hit of the triangle with these vertices.
 #[inline(always)]
 pub(super) fn intersect_triangle([a, b, c]: [DVec3; 3], ray: &RayF64) -> Option<PrimHit> {
-    let view = View::new(ray);
-    let (a, b, c) = (view.see(a), view.see(b), view.see(c));
+    let see = |p| Vertex::seen_from(ray, p);
+    let (a, b, c) = (see(a), see(b), see(c));
     let [u, v, w] = areas([(b.across, c.across), (c.across, a.across), (a.across, b.across)])?;
     let sum = u + v + w;
-    let t = (u * a.along + v * b.along + w * c.along) / sum * view.along_inv;
+    let t = (u * a.along + v * b.along + w * c.along) / sum * ray.along_inv;
     // Seen as a line, a triangle is not hit.
     (sum != 0.0 && t > 0.0).then_some(PrimHit { t, u: v / sum, v: w / sum })
 }
@@ -98,15 +79,14 @@ pub(super) fn intersect_triangle([a, b, c]: [DVec3; 3], ray: &RayF64) -> Option<
 /// of the other two has in both.
 #[inline(always)]
 pub(super) fn intersect_quad(corner: DVec3, [u, v]: [DVec3; 2], ray: &RayF64) -> Option<PrimHit> {
-    let view = View::new(ray);
-    let (a, b) = (view.see(corner), view.see(corner + u));
-    let (c, d) = (view.see(corner + u + v), view.see(corner + v));
+    let see = |p| Vertex::seen_from(ray, p);
+    let (a, b, c, d) = (see(corner), see(corner + u), see(corner + u + v), see(corner + v));
     let edges = [(a.across, b.across), (b.across, c.across), (c.across, d.across), (d.across, a.across)];
     let [ab, bc, cd, da] = areas(edges)?;
     let (width, height) = (da + bc, ab + cd);
     let (u, v) = (da / width, ab / height);
     let near = a.along * (1.0 - u) + b.along * u;
     let far = d.along * (1.0 - u) + c.along * u;
-    let t = (near * (1.0 - v) + far * v) * view.along_inv;
+    let t = (near * (1.0 - v) + far * v) * ray.along_inv;
     (width != 0.0 && height != 0.0 && t > 0.0).then_some(PrimHit { t, u, v })
 }

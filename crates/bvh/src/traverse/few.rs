@@ -20,8 +20,8 @@ impl<const ANY: bool> Task for FewSpheres<'_, ANY> {
     #[inline(always)]
     fn run<C: Cpu>(self, cpu: C) -> Option<Hit> {
         let mut nearest = Hit::none(self.ray.t_max);
-        let mut met = meets_spheres::<LANES, C>(cpu, &FilterRay::new(self.ray, 0.0), self.block, nearest.t);
         let ray = RayF64::from(self.ray);
+        let mut met = meets_spheres::<LANES, C>(cpu, &FilterRay::new(&ray, 0.0), self.block, nearest.t);
         while met != 0 {
             let lane = met.trailing_zeros() as usize & (LANES - 1);
             met &= met - 1;

@@ -67,7 +67,8 @@ struct Flyer<C: Cpu> {
 impl<C: Cpu> Flyer<C> {
     #[inline(always)]
     fn new(cpu: C, bvh: &Bvh, rays: &[Ray], index: usize) -> Self {
-        let (ray, search) = (FilterRay::new(&rays[index], 0.0), Search::new(&rays[index]));
+        let search = Search::new(&rays[index]);
+        let ray = FilterRay::new(&search.ray, bvh.reach);
         let boxes = BoxLanes::new(cpu, &ray, bvh.reach);
         Self { next: bvh.tree.root, height: 0, index, boxes, ray, search, stack: Stack::new() }
     }
@@ -75,8 +76,8 @@ impl<C: Cpu> Flyer<C> {
     /// As a new one, but for the stack.
     #[inline(always)]
     fn restart(&mut self, cpu: C, bvh: &Bvh, rays: &[Ray], index: usize) {
-        self.ray = FilterRay::new(&rays[index], 0.0);
         self.search = Search::new(&rays[index]);
+        self.ray = FilterRay::new(&self.search.ray, bvh.reach);
         self.boxes = BoxLanes::new(cpu, &self.ray, bvh.reach);
         (self.next, self.height, self.index) = (bvh.tree.root, 0, index);
     }
@@ -90,14 +91,14 @@ impl<C: Cpu> Flyer<C> {
                 push_children::<ANY, _>(cpu, tree, tree.node(index), boxes, search.t_max(), stack, height)
             }
             Target::Leaf(kind, block) => {
-                if test_leaf::<ANY, _, _>(cpu, tree, kind, block, ray, search, &Everything) {
+                if test_leaf::<ANY, _, _>(cpu, tree, kind, block, ray, search, Everything) {
                     return (true, true);
                 }
                 None
             }
         };
         let Some(child) = nearest.or_else(|| stack.pop(height, search.t_max())) else {
-            search.settle(tree, &Everything);
+            search.settle(tree, Everything);
             return (false, true);
         };
         *next = child;

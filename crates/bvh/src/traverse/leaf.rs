@@ -1,9 +1,9 @@
 //! Leaves: many primitives at once roughly, those that may be met exactly.
 
-use crate::filter::{Corners, FilterRay, View, meets_spheres};
+use crate::filter::{FilterRay, Flats, View, meets_spheres};
 use crate::search::{Accept, Search, Slot};
 use crate::simd::{Cpu, LANES, Simd, Task};
-use crate::traverse::{Walk, take_lane};
+use crate::traverse::{Within, take_lane};
 use crate::wide::{FEW, Kind, Tree};
 
 /// Tests the primitives of a leaf; whether one is hit, if `ANY`. All but triangles are tested out of line, so that the walk
@@ -16,21 +16,21 @@ pub(super) fn test_leaf<const ANY: bool, C: Cpu, A: Accept>(
     block: usize,
     ray: &FilterRay,
     search: &mut Search,
-    accept: &A,
+    accept: A,
 ) -> bool {
     let leaf = Leaf { tree, kind, block };
     match kind {
         Kind::Triangles => {
             let b = &tree.triangles[block];
-            let corners = View::<LANES, C>::new(cpu, ray).points(&b.points);
-            let met = Corners::meet(cpu, ray, b.block(), corners, search.range());
-            leaf.take::<ANY, LANES, 3, _, _>(cpu, met, search, accept)
+            let outline = View::<LANES, C>::new(cpu, ray).triangles(&b.points);
+            let met = Flats::meet(cpu, ray, b.block(), &outline, search.range());
+            leaf.take::<ANY, LANES, _, _>(cpu, met, search, accept)
         }
         Kind::FewTriangles => {
             let b = &tree.few_triangles[block];
-            let corners = View::<FEW, C>::new(cpu, ray).points(&b.points);
-            let met = Corners::meet(cpu, ray, b.block(), corners, search.range());
-            leaf.take::<ANY, FEW, 3, _, _>(cpu, met, search, accept)
+            let outline = View::<FEW, C>::new(cpu, ray).triangles(&b.points);
+            let met = Flats::meet(cpu, ray, b.block(), &outline, search.range());
+            leaf.take::<ANY, FEW, _, _>(cpu, met, search, accept)
         }
         _ => cpu.call(OtherLeaf::<ANY, A> { leaf, ray, search, accept }),
     }
@@ -41,7 +41,7 @@ struct OtherLeaf<'a, const ANY: bool, A> {
     leaf: Leaf<'a>,
     ray: &'a FilterRay,
     search: &'a mut Search,
-    accept: &'a A,
+    accept: A,
 }
 
 impl<const ANY: bool, A: Accept> Task for OtherLeaf<'_, ANY, A> {
@@ -54,9 +54,9 @@ impl<const ANY: bool, A: Accept> Task for OtherLeaf<'_, ANY, A> {
         match leaf.kind {
             Kind::Quads => {
                 let b = &tree.quads[block];
-                let corners = View::<LANES, C>::new(cpu, ray).quad(&b.points);
-                let met = Corners::meet(cpu, ray, b.block(), corners, search.range());
-                leaf.take::<ANY, LANES, 4, _, _>(cpu, met, search, accept)
+                let outline = View::<LANES, C>::new(cpu, ray).quads(&b.points);
+                let met = Flats::meet(cpu, ray, b.block(), &outline, search.range());
+                leaf.take::<ANY, LANES, _, _>(cpu, met, search, accept)
             }
             Kind::Spheres => {
                 let spheres = &tree.spheres[block];
@@ -74,9 +74,9 @@ impl<const ANY: bool, A: Accept> Task for OtherLeaf<'_, ANY, A> {
             }
             Kind::Moving => {
                 let (b, time) = (&tree.moving[block], search.ray.time);
-                let corners = View::<FEW, C>::new(cpu, ray).points(&b.points_at(time));
-                let met = Corners::meet(cpu, ray, b.block_at(time), corners, search.range());
-                leaf.take::<ANY, FEW, 3, _, _>(cpu, met, search, accept)
+                let outline = View::<FEW, C>::new(cpu, ray).triangles(&b.points_at(time));
+                let met = Flats::meet(cpu, ray, b.block_at(time), &outline, search.range());
+                leaf.take::<ANY, FEW, _, _>(cpu, met, search, accept)
             }
             Kind::Instance => test_instance::<ANY>(tree, block, search, accept),
             Kind::Triangles | Kind::FewTriangles | Kind::Nothing => false,
@@ -94,26 +94,26 @@ struct Leaf<'a> {
 impl Leaf<'_> {
     /// Notes certain hits, and tests what may be hit.
     #[inline(always)]
-    fn take<const ANY: bool, const N: usize, const M: usize, S: Simd<N>, A: Accept>(
+    fn take<const ANY: bool, const N: usize, S: Simd<N>, A: Accept>(
         &self,
         s: S,
-        met: Option<Corners<N, M, S>>,
+        met: Option<Flats<N, S>>,
         search: &mut Search,
-        accept: &A,
+        accept: A,
     ) -> bool {
-        let Some(corners) = met else {
+        let Some(flats) = met else {
             return false;
         };
         // Whether a hit is accepted is known only when it is known exactly.
         if !A::EVERYTHING {
-            return self.test::<ANY>(corners.met, search, accept);
+            return self.test::<ANY>(flats.met, search, accept);
         }
-        let certain = corners.certain(s, search.t_max());
+        let certain = flats.certain(s, search.t_max());
         if ANY {
-            return certain != 0 || self.test::<ANY>(corners.met, search, accept);
+            return certain != 0 || self.test::<ANY>(flats.met, search, accept);
         }
-        let (near, far) = corners.distances(s);
-        let mut met = corners.met;
+        let (near, far) = flats.distances(s);
+        let mut met = flats.met;
         while met != 0 {
             let lane = take_lane(&mut met) & (N - 1);
             let slot = Slot::new(self.kind, self.block, lane);
@@ -130,7 +130,7 @@ impl Leaf<'_> {
 
     /// Tests what may be hit.
     #[inline(always)]
-    fn test<const ANY: bool>(&self, mut met: u32, search: &mut Search, accept: &impl Accept) -> bool {
+    fn test<const ANY: bool>(&self, mut met: u32, search: &mut Search, accept: impl Accept) -> bool {
         while met != 0 {
             let lane = take_lane(&mut met);
             search.test(self.tree, Slot::new(self.kind, self.block, lane), accept);
@@ -148,7 +148,7 @@ pub(super) fn test_instance<const ANY: bool>(
     tree: &Tree,
     block: usize,
     search: &mut Search,
-    accept: &impl Accept,
+    accept: impl Accept,
 ) -> bool {
     search.settle(tree, accept);
     let instance = &tree.instances[block].instance;
@@ -162,9 +162,7 @@ pub(super) fn test_instance<const ANY: bool>(
     let Some(mut inner) = search.enter(ray, tree.instances[block].id, entry as f32) else {
         return false;
     };
-    let ray = inner.ray.rounded();
-    let o_error = ray.o.abs().max_element();
-    let is_hit = Walk::<ANY, _> { bvh: object, ray: &ray, o_error, search: &mut inner, accept }.search();
+    let is_hit = object.cpu.call(Within::<ANY, _> { object, search: &mut inner, accept });
     search.leave(&inner);
     is_hit
 }

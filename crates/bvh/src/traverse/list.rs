@@ -6,7 +6,7 @@ use crate::wide::{Kind, Tree};
 
 /// Tests everything; whether something is hit, if `ANY`.
 #[cold]
-pub(super) fn test_all<const ANY: bool>(tree: &Tree, search: &mut Search, accept: &impl Accept) -> bool {
+pub(super) fn test_all<const ANY: bool>(tree: &Tree, search: &mut Search, accept: impl Accept) -> bool {
     for (kind, blocks) in tree.blocks() {
         for (block, lane) in (0..blocks).flat_map(|block| (0..kind.lanes()).map(move |lane| (block, lane))) {
             if kind == Kind::Instance {

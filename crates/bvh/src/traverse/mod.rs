@@ -11,74 +11,101 @@ pub(crate) use flight::Flight;
 
 use crate::bvh::Bvh;
 use crate::filter::{BoxLanes, FilterRay};
-use crate::ray::Ray;
+use crate::ray::{Hit, Ray};
 use crate::search::{Accept, Search};
 use crate::simd::{Cpu, LANES, Simd, Task};
 use crate::traverse::leaf::test_leaf;
 use crate::traverse::stack::{Entry, Stack};
 use crate::wide::{Child, Node, Target, Tree};
 
-/// A search for the nearest hit, or, if `ANY`, for any: then it ends with the first, and the outcome says whether there is one.
-pub(crate) struct Walk<'a, const ANY: bool, A> {
+/// A search for the nearest hit.
+pub(crate) struct Nearest<'a, A> {
     pub(crate) bvh: &'a Bvh,
     pub(crate) ray: &'a Ray,
-    /// The ray's origin is off by at most a rounding of this.
-    pub(crate) o_error: f32,
-    pub(crate) search: &'a mut Search,
-    pub(crate) accept: &'a A,
+    pub(crate) accept: A,
 }
 
-impl<const ANY: bool, A: Accept> Walk<'_, ANY, A> {
+impl<A: Accept> Task for Nearest<'_, A> {
+    type Output = Option<Hit>;
+
     #[inline(always)]
-    pub(crate) fn search(mut self) -> bool {
-        if self.bvh.is_list {
-            return list::test_all::<ANY>(&self.bvh.tree, self.search, self.accept);
-        }
-        self.bvh.cpu.call(&mut self)
+    fn run<C: Cpu>(self, cpu: C) -> Option<Hit> {
+        let mut search = Search::new(self.ray);
+        walk::<false, _, _>(cpu, self.bvh, &mut search, self.accept);
+        search.hit()
     }
 }
 
-/// By reference: that is what is passed in any case, and fields are read when they are needed.
-impl<const ANY: bool, A: Accept> Task for &mut Walk<'_, ANY, A> {
+/// A search for any hit, which ends with the first: whether there is one.
+pub(crate) struct Any<'a, A> {
+    pub(crate) bvh: &'a Bvh,
+    pub(crate) ray: &'a Ray,
+    pub(crate) accept: A,
+}
+
+impl<A: Accept> Task for Any<'_, A> {
     type Output = bool;
 
-    /// Visits what the ray may meet, near things first.
     #[inline(always)]
     fn run<C: Cpu>(self, cpu: C) -> bool {
-        let (bvh, accept, search) = (self.bvh, self.accept, &mut *self.search);
-        let tree = &bvh.tree;
-        let ray = FilterRay::new(self.ray, self.o_error);
-        let mut next = tree.root;
-        let boxes = match next.target() {
-            Target::Node(_) => BoxLanes::new(cpu, &ray, bvh.reach),
-            // Few primitives have no boxes.
-            Target::Leaf(..) => BoxLanes::unused(cpu),
-        };
-        let (mut stack, mut height) = (Stack::new(), 0);
-        loop {
-            let nearest = match next.target() {
-                Target::Node(index) => {
-                    let node = tree.node(index);
-                    push_children::<ANY, _>(cpu, tree, node, &boxes, search.t_max(), &mut stack, &mut height)
-                }
-                Target::Leaf(kind, block) => {
-                    if test_leaf::<ANY, _, _>(cpu, tree, kind, block, &ray, search, accept) {
-                        return true;
-                    }
-                    None
-                }
-            };
-            next = match nearest {
-                Some(child) => child,
-                None => match stack.pop(&mut height, search.t_max()) {
-                    Some(child) => child,
-                    None => break,
-                },
-            };
-        }
-        search.settle(tree, accept);
-        false
+        walk::<true, _, _>(cpu, self.bvh, &mut Search::new(self.ray), self.accept)
     }
+}
+
+/// Either search, within an instance.
+struct Within<'a, const ANY: bool, A> {
+    object: &'a Bvh,
+    search: &'a mut Search,
+    accept: A,
+}
+
+impl<const ANY: bool, A: Accept> Task for Within<'_, ANY, A> {
+    type Output = bool;
+
+    #[inline(always)]
+    fn run<C: Cpu>(self, cpu: C) -> bool {
+        walk::<ANY, _, _>(cpu, self.object, self.search, self.accept)
+    }
+}
+
+/// Visits what the ray may meet, near things first; whether it has ended with a hit, if `ANY`.
+#[inline(always)]
+fn walk<const ANY: bool, C: Cpu, A: Accept>(cpu: C, bvh: &Bvh, search: &mut Search, accept: A) -> bool {
+    let tree = &bvh.tree;
+    if bvh.is_list {
+        return list::test_all::<ANY>(tree, search, accept);
+    }
+    let ray = FilterRay::new(&search.ray, bvh.reach);
+    let mut next = tree.root;
+    let boxes = match next.target() {
+        Target::Node(_) => BoxLanes::new(cpu, &ray, bvh.reach),
+        // Few primitives have no boxes.
+        Target::Leaf(..) => BoxLanes::unused(cpu),
+    };
+    let (mut stack, mut height) = (Stack::new(), 0);
+    loop {
+        let nearest = match next.target() {
+            Target::Node(index) => {
+                let node = tree.node(index);
+                push_children::<ANY, _>(cpu, tree, node, &boxes, search.t_max(), &mut stack, &mut height)
+            }
+            Target::Leaf(kind, block) => {
+                if test_leaf::<ANY, _, _>(cpu, tree, kind, block, &ray, search, accept) {
+                    return true;
+                }
+                None
+            }
+        };
+        next = match nearest {
+            Some(child) => child,
+            None => match stack.pop(&mut height, search.t_max()) {
+                Some(child) => child,
+                None => break,
+            },
+        };
+    }
+    search.settle(tree, accept);
+    false
 }
 
 /// Puts the children that the ray may meet on the stack, the farthest first, but for the nearest, which it returns. If `ANY`, in
