@@ -2,7 +2,7 @@
 
 EMBREE_VERSION = 4.4.0.post1
 
-.PHONY: test test-nightly test-arm memcheck fuzz bench bench-kernel figures pictures schema
+.PHONY: test test-nightly test-huge test-arm memcheck fuzz bench bench-kernel figures pictures schema
 
 # Everything that can be checked: format, lints, tests, examples in the documentation, and that it builds.
 test:
@@ -16,6 +16,10 @@ test:
 test-nightly:
 	PROPTEST_CASES=52500 cargo test --release --locked -p eyebeam-bvh --test properties
 	EYEBEAM_RAYS=100000000 cargo test --release --locked -p eyebeam-bvh --test rays no_ray_gets_through_an_edge
+
+# A hundred million triangles and ten million instances, one after the other: 12 GB of memory.
+test-huge:
+	cargo test --release --locked -p eyebeam-bvh --test huge -- --ignored --nocapture --test-threads 1
 
 # The ray kernel with the instructions of ARM, on an emulated processor. Without the tools it says so and ends well.
 ARM := aarch64-unknown-linux-gnu

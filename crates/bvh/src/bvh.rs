@@ -13,7 +13,7 @@ use crate::shape::Surface;
 use crate::simd::{Isa, Processor};
 use crate::stats::Stats;
 use crate::traverse::{Any, FewSpheres, Flight, Nearest};
-use crate::wide::{Child, Kind, SphereBlock, Target, Tree};
+use crate::wide::{Kind, SphereBlock, Target, Tree};
 
 /// Primitives sorted for rays.
 ///
@@ -36,8 +36,9 @@ pub struct Bvh {
 }
 
 impl Bvh {
-    /// The most primitives that a tree holds: 67 million. More are possible in several objects.
-    pub const MAX_PRIMITIVES: usize = Child::MAX_BLOCKS;
+    /// The most primitives that a tree holds: 134 million, in 67 million leaves of each kind. More are possible in several
+    /// objects.
+    pub const MAX_PRIMITIVES: usize = 1 << 27;
 
     /// Builds the tree, in O(n log n), in rayon's current pool of threads. The tree does not depend on how many these are.
     ///
@@ -46,7 +47,7 @@ impl Bvh {
     /// without primitives is allowed.
     ///
     /// # Errors
-    /// Numbers that are not finite, more than [`MAX_PRIMITIVES`](Self::MAX_PRIMITIVES) primitives, instances of what is not
+    /// Numbers that are not finite, more than [`MAX_PRIMITIVES`](Self::MAX_PRIMITIVES) primitives or leaves for them, instances of what is not
     /// in the list of objects, and more than [`Hit::MAX_NESTING`] instances within each other.
     pub fn build(geometry: &(impl Geometry + ?Sized), quality: Quality) -> Result<Self, BuildError> {
         Ok(Self::new(build(geometry, quality)?))

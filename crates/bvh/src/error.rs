@@ -18,6 +18,14 @@ pub enum BuildError {
         /// How many there may be.
         most: usize,
     },
+    /// The primitives need more leaves than a tree holds: many kinds of them lie among each other, or far apart.
+    #[error("{count} leaves of a kind, more than the {most} that a tree holds")]
+    TooManyLeaves {
+        /// How many there would be.
+        count: usize,
+        /// How many there may be.
+        most: usize,
+    },
     /// An instance shows an object that is not in the list.
     #[error("instance {index} shows object {object}, and there are {count}")]
     NoObject {

@@ -12,18 +12,19 @@ use crate::aabb::Aabb;
 use crate::build::binary::{Forest, Node as Binary, Subtree, children, show};
 use crate::build::item::Item;
 use crate::bvh::Bvh;
+use crate::error::BuildError;
 use crate::geometry::Geometry;
 use crate::shape::Primitive;
 use crate::simd::LANES;
 use crate::wide::{Child, Node, Room, Sizes, Tree};
 
-/// The tree, and how many references its leaves hold.
-pub(super) fn emit(forest: &Forest, geometry: &(impl Geometry + ?Sized)) -> (Tree, usize) {
+/// The tree, and how many references its leaves hold; an error if these are too many.
+pub(super) fn emit(forest: &Forest, geometry: &(impl Geometry + ?Sized)) -> Result<(Tree, usize), BuildError> {
     let mut top = Top { forest, nodes: Vec::new(), jobs: Vec::new() };
     let root = top.place(0, 1, None);
     let Top { nodes, jobs, .. } = top;
     let sizes: Vec<Sizes> = jobs.par_iter().map(|job| job.sizes(forest)).collect();
-    let mut tree = Tree::with_sizes(sizes.iter().fold(Sizes::nodes(nodes.len()), |sum, size| sum + *size));
+    let mut tree = Tree::with_sizes(sizes.iter().fold(Sizes::nodes(nodes.len()), |sum, size| sum + *size).checked()?);
     let mut room = tree.room();
     for node in &nodes {
         let place = room.place_node();
@@ -39,7 +40,7 @@ pub(super) fn emit(forest: &Forest, geometry: &(impl Geometry + ?Sized)) -> (Tre
             None => tree.root = entries[0],
         }
     }
-    (tree, written.iter().map(|(_, references)| references).sum())
+    Ok((tree, written.iter().map(|(_, references)| references).sum()))
 }
 
 /// A subtree to be written, or the parts of one that are shown in several lanes of a node.

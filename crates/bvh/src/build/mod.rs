@@ -16,10 +16,11 @@ mod sah;
 mod spatial;
 
 use crate::aabb::Aabb;
+use crate::bvh::Bvh;
 use crate::error::BuildError;
 use crate::geometry::Geometry;
 use crate::stats::Stats;
-use crate::wide::{Child, Tree};
+use crate::wide::Tree;
 
 use cost::sah_cost;
 use item::Items;
@@ -40,7 +41,7 @@ pub(crate) struct Built {
 
 /// A tree over the primitives.
 pub(crate) fn build(geometry: &(impl Geometry + ?Sized), quality: Quality) -> Result<Built, BuildError> {
-    let (count, most) = (geometry.len(), Child::MAX_BLOCKS);
+    let (count, most) = (geometry.len(), Bvh::MAX_PRIMITIVES);
     if count > most {
         return Err(BuildError::TooMany { count, most });
     }
@@ -54,7 +55,7 @@ pub(crate) fn build(geometry: &(impl Geometry + ?Sized), quality: Quality) -> Re
         Quality::Balanced => sah::build(&mut list, bounds, 0),
         Quality::Best => spatial::build(geometry, list, bounds),
     };
-    let (mut tree, references) = emit::emit(&forest, geometry);
+    let (mut tree, references) = emit::emit(&forest, geometry)?;
     tree.set_objects(geometry.objects());
     let bounds = bounds.into();
     let sah_cost = sah_cost(&tree, bounds);
@@ -71,7 +72,7 @@ mod tests {
     use super::*;
     use crate::shape::{Primitive, Quad, Sphere, Triangle};
     use crate::simd::LANES;
-    use crate::wide::{Kind, Target};
+    use crate::wide::{Child, Kind, Target};
 
     fn depth(tree: &Tree, child: Child) -> usize {
         match child.target() {

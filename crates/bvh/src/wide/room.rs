@@ -3,6 +3,7 @@
 use std::alloc::{Layout, alloc_zeroed, handle_alloc_error};
 use std::ops::Add;
 
+use crate::error::BuildError;
 use crate::shape::Primitive;
 use crate::simd::LANES;
 use crate::wide::{Child, CornerBlock, FEW, InstanceLeaf, Kind, MovingBlock, Node, SphereBlock};
@@ -70,6 +71,12 @@ impl Sizes {
         let mut sizes = Self::default();
         sizes.leaves[kind as usize] = 1;
         sizes
+    }
+
+    /// An error if references cannot tell so many leaves of a kind apart.
+    pub(crate) fn checked(self) -> Result<Self, BuildError> {
+        let (most, count) = (Child::MAX_BLOCKS, self.leaves.into_iter().fold(0, usize::max));
+        if count <= most { Ok(self) } else { Err(BuildError::TooManyLeaves { count, most }) }
     }
 
     pub(super) fn of(&self, kind: Kind) -> usize {
@@ -177,5 +184,18 @@ impl<'a, T> Places<'a, T> {
         let index = self.place();
         self.put(index, item);
         index
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn leaves_that_references_cannot_tell_apart_are_refused() {
+        let sizes = |leaves| Sizes { leaves: [0, leaves, 0, 3, 0, 0], ..Sizes::nodes(Child::MAX_BLOCKS + 1) };
+        assert!(sizes(Child::MAX_BLOCKS).checked().is_ok());
+        let error = sizes(Child::MAX_BLOCKS + 1).checked().unwrap_err();
+        assert_eq!(error, BuildError::TooManyLeaves { count: 67_108_865, most: 67_108_864 });
     }
 }
