@@ -9,10 +9,12 @@ use crate::wide::Kind;
 /// Cost of testing the boxes of a node.
 pub(crate) const NODE_COST: f32 = 1.0;
 
-/// Cost of testing the primitives of a leaf.
+/// Cost of testing the primitives of a leaf: where eight lanes are one instruction, four save only memory; where they are two
+/// instructions, half the time.
 pub(crate) fn leaf_cost(kind: Kind) -> f32 {
     match kind {
         Kind::Nothing => 0.0,
+        Kind::FewTriangles => 0.8,
         _ => 1.0,
     }
 }

@@ -16,7 +16,7 @@ use crate::build::plan::Plan;
 /// The most items in a subtree, which is one thread's work.
 pub(super) const SUBTREE: usize = 1 << 12;
 /// So few items are not split, if they are of one kind: the heuristic has no use for more leaves.
-pub(super) const SMALL: usize = 8;
+pub(super) const SMALL: usize = 4;
 
 /// The tree of items, which are reordered.
 pub(super) fn build(items: &mut [Item], bounds: Bounds, depth: usize) -> Forest<'_> {
