@@ -81,18 +81,17 @@ macro_rules! api {
         #[allow(non_snake_case)]
         struct Api {
             $($name: unsafe extern "C" fn($($argument),*) $(-> $result)?,)*
-            /// The functions are valid as long as this lives.
-            _library: Library,
         }
 
         impl Api {
             fn load(path: &Path) -> Result<Self, libloading::Error> {
                 // SAFETY: loading Embree runs the initialisers of its globals, which ask nothing of the caller.
                 let library = unsafe { Library::new(path) }?;
+                // Never unloaded: its threads may run for a while after the last device was released.
+                let library: &'static Library = Box::leak(Box::new(library));
                 Ok(Self {
                     // SAFETY: the types are those of `rtcore.h`.
                     $($name: *unsafe { library.get(concat!(stringify!($name), "\0").as_bytes()) }?,)*
-                    _library: library,
                 })
             }
         }

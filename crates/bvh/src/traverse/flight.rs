@@ -30,20 +30,21 @@ impl<const ANY: bool, F: FnMut(usize, bool, Option<Hit>)> Task for Flight<'_, AN
     #[inline(always)]
     fn run<C: Cpu>(mut self, cpu: C) {
         let mut waiting = 0..self.rays.len();
+        let mut stacks = [const { Stack::new() }; RAYS];
         let mut flying: Vec<Flyer<C>> = Vec::with_capacity(RAYS);
-        flying.extend(waiting.by_ref().take(RAYS).map(|index| Flyer::new(cpu, self.bvh, self.rays, index)));
+        flying.extend(waiting.by_ref().take(RAYS).map(|index| Flyer::new(cpu, self.bvh, self.rays, index, index)));
         while !flying.is_empty() {
             let mut place = 0;
             while place < flying.len() {
                 let flyer = &mut flying[place];
-                let (is_hit, is_done) = flyer.step::<ANY>(cpu, &self.bvh.tree);
+                let (is_hit, is_done) = flyer.step::<ANY>(cpu, &self.bvh.tree, &mut stacks[flyer.stack]);
                 if !is_done {
                     place += 1;
                     continue;
                 }
                 (self.land)(flyer.index, is_hit, flyer.search.hit());
                 match waiting.next() {
-                    Some(index) => flyer.restart(cpu, self.bvh, self.rays, index),
+                    Some(index) => *flyer = Flyer::new(cpu, self.bvh, self.rays, index, flyer.stack),
                     None => {
                         flying.swap_remove(place);
                     }
@@ -61,31 +62,23 @@ struct Flyer<C: Cpu> {
     boxes: BoxLanes<C>,
     ray: FilterRay,
     search: Search,
-    stack: Stack,
+    /// Which stack is its own.
+    stack: usize,
 }
 
 impl<C: Cpu> Flyer<C> {
     #[inline(always)]
-    fn new(cpu: C, bvh: &Bvh, rays: &[Ray], index: usize) -> Self {
+    fn new(cpu: C, bvh: &Bvh, rays: &[Ray], index: usize, stack: usize) -> Self {
         let search = Search::new(&rays[index]);
         let ray = FilterRay::new(&search.ray, bvh.reach);
         let boxes = BoxLanes::new(cpu, &ray, bvh.reach);
-        Self { next: bvh.tree.root, height: 0, index, boxes, ray, search, stack: Stack::new() }
-    }
-
-    /// As a new one, but for the stack.
-    #[inline(always)]
-    fn restart(&mut self, cpu: C, bvh: &Bvh, rays: &[Ray], index: usize) {
-        self.search = Search::new(&rays[index]);
-        self.ray = FilterRay::new(&self.search.ray, bvh.reach);
-        self.boxes = BoxLanes::new(cpu, &self.ray, bvh.reach);
-        (self.next, self.height, self.index) = (bvh.tree.root, 0, index);
+        Self { next: bvh.tree.root, height: 0, index, boxes, ray, search, stack }
     }
 
     /// Visits a node or a leaf. Whether the search has found any hit, and whether it is done.
     #[inline(always)]
-    fn step<const ANY: bool>(&mut self, cpu: C, tree: &Tree) -> (bool, bool) {
-        let Self { next, height, boxes, ray, search, stack, .. } = self;
+    fn step<const ANY: bool>(&mut self, cpu: C, tree: &Tree, stack: &mut Stack) -> (bool, bool) {
+        let Self { next, height, boxes, ray, search, .. } = self;
         let nearest = match next.target() {
             Target::Node(index) => {
                 push_children::<ANY, _>(cpu, tree, tree.node(index), boxes, search.t_max(), stack, height)

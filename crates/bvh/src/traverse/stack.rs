@@ -34,7 +34,7 @@ pub(super) struct Stack([MaybeUninit<Entry>; CAPACITY]);
 
 impl Stack {
     #[inline(always)]
-    pub(super) fn new() -> Self {
+    pub(super) const fn new() -> Self {
         Self([const { MaybeUninit::uninit() }; CAPACITY])
     }
 
