@@ -95,7 +95,7 @@ impl Instance {
         let corner =
             |i: u32| DVec3::from_array([0, 1, 2].map(|axis| f64::from(if i >> axis & 1 == 1 { hi } else { lo }[axis])));
         let at = self.at.each_ref().map(Affine::as_daffine3);
-        Aabb::around(at.into_iter().flat_map(|at| (0..8).map(move |i| at.transform_point3(corner(i)))))
+        Aabb::around(at.into_iter().flat_map(|at| (0..8).map(move |i| at.transform_point3(corner(i)).as_vec3())))
     }
 
     /// The ray in the object's space, if the instance exists then and its transform can be undone.

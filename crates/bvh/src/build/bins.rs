@@ -1,7 +1,7 @@
 //! Where to split items: the surface area heuristic, tried at the borders of bins (Wald 2007,
 //! doi:10.1109/RT.2007.4342588).
 
-use glam::Vec3A;
+use glam::{Mat3A, Vec3A};
 
 use crate::build::bounds::Bounds;
 use crate::build::item::Item;
@@ -55,61 +55,88 @@ pub(super) struct Split {
     pub(super) bounds: [Bounds; 2],
 }
 
-/// Boxes and counts of the items in each bin.
+/// For each bin and axis, the box around the items, and their number.
 #[derive(Clone)]
 pub(super) struct Bins<const N: usize> {
-    bounds: [[Bounds; N]; 3],
-    counts: [[u32; N]; 3],
+    bounds: [[Bounds; 3]; N],
+    counts: [[u32; 3]; N],
 }
 
 impl<const N: usize> Bins<N> {
     #[inline]
     pub(super) fn new(items: &[Item], grid: &Grid<N>) -> Self {
-        let mut bins = Self { bounds: [[Bounds::EMPTY; N]; 3], counts: [[0; N]; 3] };
+        let mut bins = Self { bounds: [[Bounds::EMPTY; 3]; N], counts: [[0; 3]; N] };
         for item in items {
             let bounds = item.bounds();
             let at = grid.bins(bounds.center());
             for (axis, bin) in at.into_iter().enumerate() {
-                bins.bounds[axis][bin] = bins.bounds[axis][bin].union(bounds);
-                bins.counts[axis][bin] += 1;
+                bins.bounds[bin][axis] = bins.bounds[bin][axis].union(bounds);
+                bins.counts[bin][axis] += 1;
             }
         }
         bins
     }
 
     pub(super) fn merge(&mut self, other: &Self) {
-        for axis in 0..3 {
-            for bin in 0..N {
-                self.bounds[axis][bin] = self.bounds[axis][bin].union(other.bounds[axis][bin]);
-                self.counts[axis][bin] += other.counts[axis][bin];
+        for bin in 0..N {
+            for axis in 0..3 {
+                self.bounds[bin][axis] = self.bounds[bin][axis].union(other.bounds[bin][axis]);
+                self.counts[bin][axis] += other.counts[bin][axis];
             }
         }
     }
 
-    /// The cheapest split with items on both sides; none if all are in one bin.
+    /// The cheapest split with items on both sides; none if all are in one bin. All axes are looked at at once.
     #[inline]
     pub(super) fn best(&self) -> Option<Split> {
-        let mut best = (f32::INFINITY, 0, 0);
-        for axis in 0..3 {
-            let (bounds, counts) = (&self.bounds[axis], &self.counts[axis]);
-            let mut right = [0.0; N];
-            let (mut around, mut count) = (Bounds::EMPTY, 0);
-            for bin in (1..N).rev() {
-                (around, count) = (around.union(bounds[bin]), count + counts[bin]);
-                right[bin] = if count > 0 { around.half_area() * count as f32 } else { f32::INFINITY };
-            }
-            let (mut around, mut count) = (Bounds::EMPTY, 0);
-            for bin in 1..N {
-                (around, count) = (around.union(bounds[bin - 1]), count + counts[bin - 1]);
-                let cost = around.half_area() * count as f32 + right[bin];
-                if cost < best.0 && count > 0 {
-                    best = (cost, axis, bin);
-                }
-            }
+        let mut right = [Vec3A::ZERO; N];
+        let mut side = Side::EMPTY;
+        for bin in (1..N).rev() {
+            side.add(&self.bounds[bin], self.counts[bin]);
+            right[bin] = side.cost();
         }
-        let (cost, axis, bin) = best;
-        let union = |bins: &[Bounds]| bins.iter().fold(Bounds::EMPTY, |a, &b| a.union(b));
-        let (left, right) = self.bounds[axis].split_at(bin);
+        let mut side = Side::EMPTY;
+        let (mut costs, mut bins) = (Vec3A::INFINITY, Vec3A::ZERO);
+        for bin in 1..N {
+            side.add(&self.bounds[bin - 1], self.counts[bin - 1]);
+            let cost = side.cost() + right[bin];
+            let is_less = cost.cmplt(costs);
+            costs = Vec3A::select(is_less, cost, costs);
+            bins = Vec3A::select(is_less, Vec3A::splat(bin as f32), bins);
+        }
+        let axis = costs.min_position();
+        let (cost, bin) = (costs[axis], bins[axis] as usize);
+        let union = |bins: &[[Bounds; 3]]| bins.iter().fold(Bounds::EMPTY, |a, b| a.union(b[axis]));
+        let (left, right) = self.bounds.split_at(bin);
         cost.is_finite().then(|| Split { axis, bin, cost, bounds: [union(left), union(right)] })
+    }
+}
+
+/// What lies on one side of a border, for each axis.
+struct Side {
+    bounds: [Bounds; 3],
+    counts: Vec3A,
+}
+
+impl Side {
+    const EMPTY: Self = Self { bounds: [Bounds::EMPTY; 3], counts: Vec3A::ZERO };
+
+    #[inline(always)]
+    fn add(&mut self, bounds: &[Bounds; 3], [x, y, z]: [u32; 3]) {
+        for (side, bounds) in self.bounds.iter_mut().zip(bounds) {
+            *side = side.union(*bounds);
+        }
+        self.counts += Vec3A::new(x as f32, y as f32, z as f32);
+    }
+
+    /// Area times count; infinite if there is nothing.
+    #[inline(always)]
+    fn cost(&self) -> Vec3A {
+        let [a, b, c] = &self.bounds;
+        let size = |b: &Bounds| (b.hi - b.lo).max(Vec3A::ZERO);
+        let size = Mat3A::from_cols(size(a), size(b), size(c)).transpose();
+        let (x, y, z) = (size.x_axis, size.y_axis, size.z_axis);
+        let cost = (x * y + y * z + z * x) * self.counts;
+        Vec3A::select(self.counts.cmpgt(Vec3A::ZERO), cost, Vec3A::INFINITY)
     }
 }

@@ -3,7 +3,7 @@
 //! Corners are computed in double precision and boxes are wider by a few roundings, as those of whole primitives are: what
 //! lies on the plane lies in both.
 
-use glam::DVec3;
+use glam::{DVec3, Vec3};
 
 use crate::aabb::Aabb;
 use crate::build::bounds::Bounds;
@@ -24,7 +24,7 @@ pub(super) fn clip(primitive: &Primitive, within: Bounds, axis: usize, at: f32) 
 
 fn cut_box(bounds: Bounds, axis: usize, at: f32) -> [Bounds; 2] {
     let (mut low, mut high) = (bounds, bounds);
-    let cut = Aabb::around([DVec3::splat(f64::from(at))]);
+    let cut = Aabb::around([Vec3::splat(at)]);
     low.hi[axis] = cut.hi[axis];
     high.lo[axis] = cut.lo[axis];
     [low, high]
@@ -66,7 +66,7 @@ impl Extent {
     }
 
     fn bounds(&self) -> Bounds {
-        if self.lo.x > self.hi.x { Bounds::EMPTY } else { Aabb::around([self.lo, self.hi]).into() }
+        if self.lo.x > self.hi.x { Bounds::EMPTY } else { Aabb::around([self.lo, self.hi].map(|p| p.as_vec3())).into() }
     }
 }
 

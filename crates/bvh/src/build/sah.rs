@@ -64,7 +64,8 @@ fn split(items: &mut [Item], depth: usize) -> (usize, [Bounds; 2]) {
     let centers = chunks::centers(items);
     let split = match items.len() {
         _ if depth + levels_needed >= MAX_DEPTH => None,
-        0..=32 => split_in_bins::<8>(items, centers),
+        0..=8 => split_in_bins::<4>(items, centers),
+        9..=32 => split_in_bins::<8>(items, centers),
         33..=1024 => split_in_bins::<16>(items, centers),
         _ => split_in_bins::<32>(items, centers),
     };

@@ -21,7 +21,7 @@ pub struct Quad {
 impl Quad {
     pub(crate) fn bounds(&self) -> Aabb {
         let (c, u, v) = (self.corner.as_dvec3(), self.u.as_dvec3(), self.v.as_dvec3());
-        Aabb::around([c, c + u, c + v, c + u + v])
+        Aabb::around([c, c + u, c + v, c + u + v].map(|p| p.as_vec3()))
     }
 
     #[inline]

@@ -23,7 +23,7 @@ pub struct Sphere {
 impl Sphere {
     pub(crate) fn bounds(&self) -> Aabb {
         let (c, r) = (self.center.as_dvec3(), DVec3::splat(self.radius.into()));
-        Aabb::around([c - r, c + r])
+        Aabb::around([c - r, c + r].map(|p| p.as_vec3()))
     }
 
     /// The nearer root of |o + t d − c|² = r² that lies ahead.

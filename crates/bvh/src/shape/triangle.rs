@@ -34,7 +34,7 @@ impl Triangle {
     }
 
     pub(crate) fn bounds(&self) -> Aabb {
-        Aabb::around(self.vertices())
+        Aabb::around([self.a, self.b, self.c])
     }
 
     #[inline(always)]
