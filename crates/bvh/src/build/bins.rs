@@ -97,9 +97,9 @@ impl<const N: usize> Bins<N> {
         }
         let mut side = Side::EMPTY;
         let (mut costs, mut bins) = (Vec3A::INFINITY, Vec3A::ZERO);
-        for bin in 1..N {
+        for (bin, right) in right.into_iter().enumerate().skip(1) {
             side.add(&self.bounds[bin - 1], self.counts[bin - 1]);
-            let cost = side.cost() + right[bin];
+            let cost = side.cost() + right;
             let is_less = cost.cmplt(costs);
             costs = Vec3A::select(is_less, cost, costs);
             bins = Vec3A::select(is_less, Vec3A::splat(bin as f32), bins);
