@@ -11,12 +11,15 @@ use eyebeam_core::sampler::{Independent, Sampler};
 use eyebeam_core::scene::Scene;
 use glam::UVec2;
 
+/// Why these cannot fail.
+const SHIPPED: &str = "the scenes of the repository are read by its tests";
+
 /// Nearest hits of the rays through the middle of all pixels.
 fn camera_rays(c: &mut Criterion) {
     let mut group = c.benchmark_group("camera-rays");
     for name in ["spheres", "weekend"] {
-        let desc = read_scene(name).unwrap();
-        let scene = Scene::build(&desc).unwrap();
+        let desc = read_scene(name).expect(SHIPPED);
+        let scene = Scene::build(&desc).expect(SHIPPED);
         let (width, height) = (400, 225);
         let camera = scene.camera(width, height);
         let pixels = (0..height).flat_map(|y| (0..width).map(move |x| UVec2::new(x, y)));
@@ -37,9 +40,9 @@ fn pictures(c: &mut Criterion) {
     let mut group = c.benchmark_group("samples");
     group.sample_size(10).measurement_time(Duration::from_secs(10));
     for name in ["spheres", "weekend"] {
-        let mut desc = read_scene(name).unwrap();
+        let mut desc = read_scene(name).expect(SHIPPED);
         shrink(&mut desc, 320, 4);
-        let scene = Scene::build(&desc).unwrap();
+        let scene = Scene::build(&desc).expect(SHIPPED);
         group.throughput(Throughput::Elements(samples(&desc)));
         group
             .bench_function(BenchmarkId::new("eyebeam", name), |b| b.iter(|| render(&scene, &desc, NonZeroUsize::MIN)));

@@ -11,7 +11,7 @@ mod spheres;
 
 pub(crate) use boxes::BoxLanes;
 pub(crate) use flats::{Block, Flats};
-pub(crate) use outline::View;
+pub(crate) use outline::{Outline, View};
 pub(crate) use spheres::meets_spheres;
 
 use crate::ray::RayF64;

@@ -32,6 +32,7 @@ impl<const ANY: bool, F: FnMut(usize, bool, Option<Hit>)> Task for Flight<'_, AN
         let mut waiting = 0..self.rays.len();
         let mut stacks = [const { Stack::new() }; RAYS];
         let mut flying: Vec<Flyer<C>> = Vec::with_capacity(RAYS);
+        // A ray that has landed leaves its stack to the next.
         flying.extend(waiting.by_ref().take(RAYS).map(|index| Flyer::new(cpu, self.bvh, self.rays, index, index)));
         while !flying.is_empty() {
             let mut place = 0;

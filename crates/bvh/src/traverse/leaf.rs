@@ -1,10 +1,10 @@
 //! Leaves: many primitives at once roughly, those that may be met exactly.
 
-use crate::filter::{FilterRay, Flats, View, meets_spheres};
+use crate::filter::{Block, FilterRay, Flats, Outline, View, meets_spheres};
 use crate::search::{Accept, Search, Slot};
 use crate::simd::{Cpu, LANES, Simd, Task};
 use crate::traverse::{Within, take_lane};
-use crate::wide::{FEW, Kind, Tree};
+use crate::wide::{FEW, Kind, SphereBlock, Tree};
 
 /// Tests the primitives of a leaf; whether one is hit, if `ANY`. All but triangles are tested out of line, so that the walk
 /// keeps its registers for these.
@@ -23,14 +23,12 @@ pub(super) fn test_leaf<const ANY: bool, C: Cpu, A: Accept>(
         Kind::Triangles => {
             let b = &tree.triangles[block];
             let outline = View::<LANES, C>::new(cpu, ray).triangles(&b.points);
-            let met = Flats::meet(cpu, ray, b.block(), &outline, search.range());
-            leaf.take::<ANY, LANES, _, _>(cpu, met, search, accept)
+            leaf.test_flats::<ANY, LANES, _, _>(cpu, ray, b.block(), &outline, search, accept)
         }
         Kind::FewTriangles => {
             let b = &tree.few_triangles[block];
             let outline = View::<FEW, C>::new(cpu, ray).triangles(&b.points);
-            let met = Flats::meet(cpu, ray, b.block(), &outline, search.range());
-            leaf.take::<ANY, FEW, _, _>(cpu, met, search, accept)
+            leaf.test_flats::<ANY, FEW, _, _>(cpu, ray, b.block(), &outline, search, accept)
         }
         _ => cpu.call(OtherLeaf::<ANY, A> { leaf, ray, search, accept }),
     }
@@ -55,28 +53,19 @@ impl<const ANY: bool, A: Accept> Task for OtherLeaf<'_, ANY, A> {
             Kind::Quads => {
                 let b = &tree.quads[block];
                 let outline = View::<LANES, C>::new(cpu, ray).quads(&b.points);
-                let met = Flats::meet(cpu, ray, b.block(), &outline, search.range());
-                leaf.take::<ANY, LANES, _, _>(cpu, met, search, accept)
+                leaf.test_flats::<ANY, LANES, _, _>(cpu, ray, b.block(), &outline, search, accept)
             }
             Kind::Spheres => {
-                let spheres = &tree.spheres[block];
-                let mut met = meets_spheres::<LANES, C>(cpu, ray, spheres, search.t_max());
+                let met = meets_spheres::<LANES, C>(cpu, ray, &tree.spheres[block], search.t_max());
                 if met != 0 {
                     search.settle(tree, accept);
                 }
-                while met != 0 {
-                    let lane = take_lane(&mut met);
-                    if let Some(hit) = spheres.sphere(lane).intersect(&search.ray) {
-                        search.offer(&hit, spheres.id[lane], Slot::new(Kind::Spheres, block, lane), accept);
-                    }
-                }
-                ANY && search.found()
+                test_spheres::<ANY>(met, &tree.spheres[block], block, search, accept)
             }
             Kind::Moving => {
                 let (b, time) = (&tree.moving[block], search.ray.time);
                 let outline = View::<FEW, C>::new(cpu, ray).triangles(&b.points_at(time));
-                let met = Flats::meet(cpu, ray, b.block_at(time), &outline, search.range());
-                leaf.take::<ANY, FEW, _, _>(cpu, met, search, accept)
+                leaf.test_flats::<ANY, FEW, _, _>(cpu, ray, b.block_at(time), &outline, search, accept)
             }
             Kind::Instance => test_instance::<ANY>(tree, block, search, accept),
             Kind::Triangles | Kind::FewTriangles | Kind::Nothing => false,
@@ -92,16 +81,18 @@ struct Leaf<'a> {
 }
 
 impl Leaf<'_> {
-    /// Notes certain hits, and tests what may be hit.
+    /// Triangles or quads: notes certain hits, and tests what may be hit.
     #[inline(always)]
-    fn take<const ANY: bool, const N: usize, S: Simd<N>, A: Accept>(
+    fn test_flats<const ANY: bool, const N: usize, S: Simd<N>, A: Accept>(
         &self,
         s: S,
-        met: Option<Flats<N, S>>,
+        ray: &FilterRay,
+        block: Block,
+        outline: &impl Outline<N, S>,
         search: &mut Search,
         accept: A,
     ) -> bool {
-        let Some(flats) = met else {
+        let Some(flats) = Flats::meet(s, ray, block, outline, search.range()) else {
             return false;
         };
         // Whether a hit is accepted is known only when it is known exactly.
@@ -140,6 +131,27 @@ impl Leaf<'_> {
         }
         false
     }
+}
+
+/// Tests the spheres that may be hit; nothing must be pending if there are any.
+#[inline(always)]
+pub(super) fn test_spheres<const ANY: bool>(
+    mut met: u32,
+    spheres: &SphereBlock,
+    block: usize,
+    search: &mut Search,
+    accept: impl Accept,
+) -> bool {
+    while met != 0 {
+        let lane = take_lane(&mut met);
+        if let Some(hit) = spheres.sphere(lane).intersect(&search.ray) {
+            search.offer(&hit, spheres.id[lane], Slot::new(Kind::Spheres, block, lane), accept);
+            if ANY && search.found() {
+                return true;
+            }
+        }
+    }
+    false
 }
 
 /// Goes on within an instance.
