@@ -55,3 +55,24 @@ impl FromStr for Quality {
         found.ok_or_else(|| format!("no quality is called `{name}`: there are fast, balanced and best"))
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn auto_takes_more_care_the_more_rays_there_are() {
+        const TRIANGLES: usize = 1_000_000;
+        let auto = |rays_per_triangle: f64| Quality::auto((rays_per_triangle * TRIANGLES as f64) as u64, TRIANGLES);
+        assert_eq!([0.0, 0.5].map(auto), [Quality::Fast; 2], "a glance at a large model");
+        assert_eq!([1.0, 10.0].map(auto), [Quality::Balanced; 2]);
+        assert_eq!([20.0, 1e6].map(auto), [Quality::Best; 2], "a long render");
+        assert_eq!((Quality::auto(0, 0), Quality::auto(u64::MAX, 0)), (Quality::Fast, Quality::Best));
+    }
+
+    #[test]
+    fn names_are_read_as_they_are_written() {
+        assert!(Quality::ALL.into_iter().all(|quality| quality.to_string().parse() == Ok(quality)));
+        assert!("auto-ish".parse::<Quality>().is_err());
+    }
+}
