@@ -1,7 +1,8 @@
-//! How fast the renderer is, and what to compare it with: a textbook program, and Embree.
+//! How fast the renderer is, and what to compare it with: a textbook program, Embree, and other renderers.
 #![deny(unsafe_code)]
 
 pub mod kernel;
 pub mod measure;
+pub mod peers;
 pub mod textbook;
 mod vec3;

@@ -10,9 +10,12 @@ use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 use crate::camera::CameraDesc;
+use crate::film::FilterDesc;
 use crate::integrator::IntegratorKind;
-use crate::light::EnvironmentDesc;
+use crate::light::select::LightSelection;
+use crate::light::{EnvironmentDesc, LightsDesc};
 use crate::material::MaterialDesc;
+use crate::sampler::SamplerKind;
 use crate::shape::ShapesDesc;
 use crate::validate::{Checker, Problem};
 
@@ -29,6 +32,8 @@ pub struct SceneDesc {
     pub camera: CameraDesc,
     /// Light from outside.
     pub environment: EnvironmentDesc,
+    /// Light from what is no shape.
+    pub light: LightsDesc,
     /// Materials by name.
     pub material: BTreeMap<String, MaterialDesc>,
     /// Everything that can be seen.
@@ -54,11 +59,27 @@ pub struct RenderDesc {
     pub seed: u64,
     /// How light is traced.
     pub integrator: IntegratorKind,
+    /// Which random numbers.
+    pub sampler: SamplerKind,
+    /// How a pixel is made of the places around it.
+    pub filter: FilterDesc,
+    /// How one of many lights is chosen.
+    pub light_selection: LightSelection,
 }
 
 impl Default for RenderDesc {
     fn default() -> Self {
-        Self { width: 800, height: 450, spp: 128, max_depth: 50, seed: 0, integrator: IntegratorKind::default() }
+        Self {
+            width: 800,
+            height: 450,
+            spp: 128,
+            max_depth: 50,
+            seed: 0,
+            integrator: IntegratorKind::default(),
+            sampler: SamplerKind::default(),
+            filter: FilterDesc::default(),
+            light_selection: LightSelection::default(),
+        }
     }
 }
 
@@ -74,6 +95,7 @@ impl RenderDesc {
         c.count("width", self.width, Self::MAX_SIDE);
         c.count("height", self.height, Self::MAX_SIDE);
         c.count("spp", self.spp, Self::MAX_SPP);
+        c.within("filter", |c| self.filter.check(c));
         if self.max_depth > Self::MAX_DEPTH {
             let hint = format!("use a whole number from 0 to {}", Self::MAX_DEPTH);
             c.problem(
@@ -95,6 +117,7 @@ impl SceneDesc {
         c.within("render", |c| self.render.check(c));
         c.within("camera", |c| self.camera.check(c));
         c.within("environment", |c| self.environment.check(c));
+        c.within("light", |c| self.light.check(c));
         c.within("material", |c| {
             for (name, material) in &self.material {
                 c.within(name, |c| material.check(c));

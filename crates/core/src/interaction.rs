@@ -1,36 +1,49 @@
 //! A ray's meeting with a surface.
 
 use eyebeam_bvh::Ray;
-use glam::{Vec2, Vec3};
+use glam::Vec3;
 
 use crate::color::Spectrum;
-use crate::material::{BsdfSample, MaterialDesc};
-use crate::math::{Frame, offset_ray_origin};
+use crate::light::{LightSample, Target};
+use crate::material::{Bsdf, BsdfSample, MaterialDesc};
+use crate::math::Frame;
 use crate::sampler::Sampler;
 use crate::shape::SurfacePoint;
 
 /// A point of a surface, seen along a ray.
+///
+/// Materials work in the frame of the shading normal. Directions that are above the surface by that normal and below by the
+/// geometric one, or the other way round, carry no light: it would leak through the surface (Veach 1997, §5.3).
 #[derive(Clone, Copy, Debug)]
 pub struct SurfaceInteraction<'s> {
     point: SurfacePoint,
     frame: Frame,
-    /// To where the ray came from; local.
+    /// To where the ray came from.
+    wo_world: Vec3,
+    /// The same; local.
     wo: Vec3,
     material: &'s MaterialDesc,
+    light: Option<u32>,
 }
 
 impl<'s> SurfaceInteraction<'s> {
-    /// Where a ray of unit direction `d` met the surface.
+    /// Where a ray of unit direction `d` met the surface; `light` is its number among the scene's lights if it shines.
     #[inline]
-    pub fn new(point: SurfacePoint, d: Vec3, material: &'s MaterialDesc) -> Self {
-        let frame = Frame::from_z(point.n);
-        Self { point, frame, wo: frame.to_local(-d), material }
+    pub(crate) fn new(point: SurfacePoint, d: Vec3, material: &'s MaterialDesc, light: Option<u32>) -> Self {
+        let frame = Frame::from_z(point.ns);
+        Self { point, frame, wo_world: -d, wo: frame.to_local(-d), material, light }
     }
 
     /// Where the surface was met.
     #[inline]
-    pub fn point(&self) -> SurfacePoint {
-        self.point
+    pub fn point(&self) -> &SurfacePoint {
+        &self.point
+    }
+
+    /// The number of the light that this surface is.
+    #[inline]
+    pub(crate) fn light(&self) -> Option<u32> {
+        self.light
     }
 
     /// Radiance that the surface itself sends back along the ray.
@@ -39,17 +52,52 @@ impl<'s> SurfaceInteraction<'s> {
         self.material.le(self.wo)
     }
 
+    /// How the surface scatters light here.
+    #[inline]
+    pub fn bsdf(&self) -> Bsdf {
+        self.material.bsdf()
+    }
+
+    /// Whether a direction is on the same side of the surface by both normals.
+    #[inline]
+    fn agrees(&self, w_world: Vec3, w: Vec3) -> bool {
+        w_world.dot(self.point.n) * w.z > 0.0
+    }
+
+    /// The BSDF times |cos θ| for light from the unit direction `wi_world`, and the density (1/sr) with which
+    /// [`scatter`](Self::scatter) draws it.
+    #[inline]
+    pub fn eval_pdf(&self, bsdf: &Bsdf, wi_world: Vec3) -> (Spectrum, f32) {
+        let wi = self.frame.to_local(wi_world);
+        if self.agrees(wi_world, wi) { bsdf.eval_pdf(self.wo, wi) } else { (Spectrum::BLACK, 0.0) }
+    }
+
     /// Draws where the light that is scattered back along the ray comes from; none if it is absorbed.
     #[inline]
-    pub fn scatter(&self, sampler: &mut Sampler) -> Option<(BsdfSample, Ray)> {
-        let (uc, u): (f32, Vec2) = (sampler.get_1d(), sampler.get_2d());
-        let sample = self.material.bsdf().sample(self.wo, uc, u)?;
-        Some((sample, self.spawn_ray(self.frame.to_world(sample.wi))))
+    pub fn scatter(&self, bsdf: &Bsdf, sampler: &mut Sampler<'_>) -> Option<(BsdfSample, Ray)> {
+        let (uc, u) = sampler.get_3d();
+        let sample = bsdf.sample(self.wo, uc, u)?;
+        let wi_world = self.frame.to_world(sample.wi);
+        self.agrees(wi_world, sample.wi).then(|| (sample, self.spawn_ray(wi_world)))
     }
 
     /// A ray that leaves along `w` and does not meet this surface again at its start.
     #[inline]
     pub fn spawn_ray(&self, w: Vec3) -> Ray {
-        Ray::new(offset_ray_origin(self.point.p, self.point.p_error, self.point.n, w), w.normalize())
+        Ray::new(self.point.ray_origin(self.wo_world, w), w.normalize())
+    }
+
+    /// The ray from here to a light, which ends before it.
+    #[inline]
+    pub fn shadow_ray(&self, light: &LightSample) -> Ray {
+        match light.target {
+            Target::Infinity => self.spawn_ray(light.wi),
+            Target::On(target) => {
+                let o = self.point.ray_origin(self.wo_world, light.wi);
+                let to = target - o;
+                let distance = to.length();
+                Ray { t_max: distance, ..Ray::new(o, to / distance) }
+            }
+        }
     }
 }

@@ -9,10 +9,11 @@ use std::sync::atomic::{AtomicBool, AtomicU64, Ordering::Relaxed};
 use std::sync::{Mutex, PoisonError};
 use std::thread;
 
-use crate::camera::ThinLens;
+use crate::camera::Camera;
 use crate::desc::RenderDesc;
-use crate::film::Film;
+use crate::film::{Film, Filter, FilterDesc};
 use crate::integrator::{Integrator, IntegratorKind, Unit};
+use crate::sampler::SamplerKind;
 use crate::scene::Scene;
 
 /// How to render. All but `threads` decides the picture; `threads` only how soon it is there.
@@ -30,15 +31,20 @@ pub struct Settings {
     pub seed: u64,
     /// How light is traced.
     pub integrator: IntegratorKind,
+    /// Which random numbers.
+    pub sampler: SamplerKind,
+    /// How a pixel is made of the places around it.
+    pub filter: FilterDesc,
     /// Threads that render; all processors that the process may use by default.
     pub threads: NonZeroUsize,
 }
 
 impl From<&RenderDesc> for Settings {
     fn from(desc: &RenderDesc) -> Self {
-        let &RenderDesc { width, height, spp, max_depth, seed, integrator } = desc;
+        let RenderDesc { width, height, spp, max_depth, seed, integrator, sampler, filter, light_selection: _ } =
+            desc.clone();
         let threads = thread::available_parallelism().unwrap_or(NonZeroUsize::MIN);
-        Self { width, height, spp, max_depth, seed, integrator, threads }
+        Self { width, height, spp, max_depth, seed, integrator, sampler, filter, threads }
     }
 }
 
@@ -57,7 +63,8 @@ pub struct Monitor {
 pub struct Render<'s> {
     scene: &'s Scene,
     settings: Settings,
-    camera: ThinLens,
+    camera: Camera,
+    filter: Filter,
     integrator: Box<dyn Integrator>,
     film: Film,
     /// Units before this one are done; those of a pass come tile by tile.
@@ -73,6 +80,7 @@ impl<'s> Render<'s> {
         Self {
             scene,
             camera: scene.camera(settings.width, settings.height),
+            filter: Filter::new(&settings.filter),
             integrator: settings.integrator.build(settings.max_depth),
             film: Film::new(settings.width, settings.height),
             settings,
@@ -89,7 +97,8 @@ impl<'s> Render<'s> {
         let pass = self.next_unit / tile_count;
         let first = pass as u32 * Self::SAMPLES_PER_PASS;
         let samples = first..self.settings.spp.min(first + Self::SAMPLES_PER_PASS);
-        let unit = Unit { camera: &self.camera, seed: self.settings.seed, samples };
+        let numbers = self.settings.sampler.samples(self.settings.seed, samples.clone());
+        let unit = Unit { camera: &self.camera, filter: &self.filter, numbers: &numbers, samples };
         let tiles: Vec<_> = self.film.tiles_mut().iter_mut().map(Mutex::new).collect();
         let next_tile = AtomicU64::new(self.next_unit % tile_count);
         let work = || {

@@ -4,14 +4,14 @@ use std::collections::BTreeMap;
 
 pub use eyebeam_bvh::{Bvh, Ray};
 
-use eyebeam_bvh::{BuildError, Quality};
+use eyebeam_bvh::{BuildError, Primitive, Quality};
 
-use crate::camera::{CameraDesc, ThinLens};
+use crate::camera::{Camera, CameraDesc};
 use crate::desc::SceneDesc;
 use crate::interaction::SurfaceInteraction;
-use crate::light::EnvironmentDesc;
+use crate::light::{AreaLight, Light, Lights};
 use crate::material::MaterialDesc;
-use crate::shape::SurfacePoint;
+use crate::shape::{Smooth, SurfacePoint};
 use crate::validate::Problem;
 
 /// How rays find what they hit.
@@ -30,11 +30,22 @@ pub enum Acceleration {
 #[derive(Clone, Debug)]
 pub struct Scene {
     bvh: Bvh,
-    /// Index of each primitive's material.
-    material_of: Vec<u32>,
+    /// Index of each primitive's object.
+    object_of: Vec<u32>,
+    objects: Vec<Object>,
     materials: Vec<MaterialDesc>,
-    environment: EnvironmentDesc,
+    lights: Lights,
     camera: CameraDesc,
+}
+
+/// What the primitives of a shape have in common.
+#[derive(Clone, Debug)]
+struct Object {
+    material: u32,
+    first_primitive: u32,
+    /// Number of the first primitive's light; the next ones follow.
+    first_light: Option<u32>,
+    smooth: Option<Smooth>,
 }
 
 impl Scene {
@@ -61,13 +72,26 @@ impl Scene {
             index_of.insert(name, materials.len() as u32);
             materials.push(material.clone());
         }
-        let (mut primitives, mut material_of) = (Vec::new(), Vec::new());
+        let (mut primitives, mut object_of, mut objects) = (Vec::new(), Vec::new(), Vec::new());
+        let mut lights = Vec::new();
         for (_, _, shape) in desc.shape.iter() {
+            let first = primitives.len();
             shape.push_primitives(&mut primitives);
             // The check has found that every name exists.
             let material = index_of.get(shape.material().unwrap_or(SceneDesc::DEFAULT_MATERIAL)).copied().unwrap_or(0);
-            material_of.resize(primitives.len(), material);
+            let first_light = lights.len() as u32;
+            lights.extend(area_lights(&primitives[first..], &materials[material as usize]));
+            object_of.resize(primitives.len(), objects.len() as u32);
+            objects.push(Object {
+                material,
+                first_primitive: first as u32,
+                first_light: (lights.len() as u32 > first_light).then_some(first_light),
+                smooth: shape.smooth(),
+            });
         }
+        lights.extend(desc.light.near());
+        let far = desc.light.far().collect();
+        let lights = Lights::new(lights, desc.render.light_selection, desc.environment.compile(), far);
         let bvh = match acceleration {
             Acceleration::Auto => Bvh::build(&primitives, Quality::auto(expected_rays(desc), primitives.len())),
             Acceleration::Tree(quality) => Bvh::build(&primitives, quality),
@@ -75,39 +99,51 @@ impl Scene {
         };
         // The check has found that every number is finite and that the primitives are not too many.
         let refused = |e: BuildError| vec![Problem { path: vec!["shape".into()], message: e.to_string(), hint: None }];
-        Ok(Self {
-            bvh: bvh.map_err(refused)?,
-            material_of,
-            materials,
-            environment: desc.environment.clone(),
-            camera: desc.camera.clone(),
-        })
+        Ok(Self { bvh: bvh.map_err(refused)?, object_of, objects, materials, lights, camera: desc.camera.clone() })
     }
 
     /// The nearest surface that the ray meets; its direction must have length 1.
     #[inline]
     pub fn intersect(&self, ray: &Ray) -> Option<SurfaceInteraction<'_>> {
         let hit = self.bvh.intersect(ray)?;
-        let point = SurfacePoint::new(&self.bvh.surface(&hit, ray.time), ray, &hit);
-        let material = &self.materials[self.material_of[hit.prim as usize] as usize];
-        Some(SurfaceInteraction::new(point, ray.d, material))
+        let object = &self.objects[self.object_of[hit.prim as usize] as usize];
+        let primitive = hit.prim - object.first_primitive;
+        let surface = self.bvh.surface(&hit, ray.time);
+        let point = SurfacePoint::new(&surface, ray, &hit, object.smooth.as_ref(), primitive);
+        let light = object.first_light.map(|first| first + primitive);
+        Some(SurfaceInteraction::new(point, ray.d, &self.materials[object.material as usize], light))
     }
 
-    /// Light from outside.
+    /// Whether anything is in the way of the ray before its `t_max`.
     #[inline]
-    pub fn environment(&self) -> &EnvironmentDesc {
-        &self.environment
+    pub fn occluded(&self, ray: &Ray) -> bool {
+        self.bvh.occluded(ray)
+    }
+
+    /// All that shines.
+    #[inline]
+    pub(crate) fn lights(&self) -> &Lights {
+        &self.lights
     }
 
     /// The camera for a picture of this size.
-    pub fn camera(&self, width: u32, height: u32) -> ThinLens {
-        ThinLens::new(&self.camera, width, height)
+    pub fn camera(&self, width: u32, height: u32) -> Camera {
+        Camera::new(&self.camera, width, height)
     }
 
     /// The number of primitives.
     pub fn primitive_count(&self) -> usize {
-        self.material_of.len()
+        self.object_of.len()
     }
+}
+
+/// The lights that primitives of a material are.
+fn area_lights(primitives: &[Primitive], material: &MaterialDesc) -> Vec<Light> {
+    let MaterialDesc::Emissive(emissive) = material else {
+        return Vec::new();
+    };
+    let light = |p| AreaLight::new(p, emissive.radiance.into(), emissive.two_sided).map(Light::Area);
+    primitives.iter().filter_map(light).collect()
 }
 
 /// About how many rays the picture takes.

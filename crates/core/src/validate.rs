@@ -135,4 +135,10 @@ impl Checker {
         self.finite(key, &v);
         self.require(v != [0.0; 3], key, || format!("`{key}` must not be [0, 0, 0]"), "give it a length");
     }
+
+    /// That two points are not the same.
+    pub(crate) fn apart(&mut self, key: &str, a: [f32; 3], other: &str, b: [f32; 3]) {
+        let message = || format!("`{other}` and `{key}` are the same point, so it points nowhere");
+        self.require(a != b, key, message, "move one of them");
+    }
 }

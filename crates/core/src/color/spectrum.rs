@@ -32,6 +32,12 @@ impl Spectrum {
         self.0 == Vec4::ZERO
     }
 
+    /// The largest of red, green and blue.
+    #[inline]
+    pub fn max_component(self) -> f32 {
+        self.0.x.max(self.0.y).max(self.0.z)
+    }
+
     /// `self` at t = 0, `other` at t = 1, mixed evenly between.
     #[inline]
     pub fn lerp(self, other: Self, t: f32) -> Self {

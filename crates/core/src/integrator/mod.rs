@@ -1,37 +1,43 @@
 //! Integrators: from a camera ray to the light that it brings.
 
+mod path;
 mod weekend;
 
 use std::ops::Range;
 
-use glam::{UVec2, Vec2};
+use eyebeam_bvh::Ray;
+use glam::UVec2;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
-use crate::camera::ThinLens;
+use crate::camera::Camera;
 use crate::color::Spectrum;
-use crate::film::Tile;
-use crate::sampler::{Independent, Sampler};
+use crate::film::{Filter, Tile};
+use crate::sampler::{Sampler, Samples};
 use crate::scene::Scene;
 
+pub use path::Path;
 pub use weekend::Weekend;
 
 /// Which integrator renders.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "kebab-case")]
 pub enum IntegratorKind {
-    /// The plain backward ray tracer that all others are checked against.
+    /// Paths with light sampling: the same picture as `weekend`, with less noise.
     #[default]
+    Path,
+    /// The plain backward ray tracer that all others are checked against.
     Weekend,
 }
 
 impl IntegratorKind {
     /// Every kind by its name.
-    pub const NAMES: &[(&str, Self)] = &[("weekend", Self::Weekend)];
+    pub const NAMES: &[(&str, Self)] = &[("path", Self::Path), ("weekend", Self::Weekend)];
 
     /// The integrator for paths of at most `max_depth` edges.
     pub fn build(self, max_depth: u32) -> Box<dyn Integrator> {
         match self {
+            Self::Path => Box::new(Path { max_depth }),
             Self::Weekend => Box::new(Weekend { max_depth }),
         }
     }
@@ -47,25 +53,27 @@ pub trait Integrator: Sync {
 #[derive(Clone, Debug)]
 pub struct Unit<'a> {
     /// The camera.
-    pub camera: &'a ThinLens,
-    /// See [`Settings::seed`](crate::render::Settings::seed).
-    pub seed: u64,
+    pub camera: &'a Camera,
+    /// How a pixel is made of the places around it.
+    pub filter: &'a Filter,
+    /// The random numbers of these samples.
+    pub numbers: &'a Samples,
     /// Which samples of each pixel.
     pub samples: Range<u32>,
 }
 
 impl Unit<'_> {
-    /// Adds one `radiance(film position, sampler)` for each sample of each pixel.
-    ///
-    /// The position is the pixel's centre plus a uniform offset in [-0.5, 0.5) in x and y.
+    /// Adds one `radiance(ray, sampler)` for each sample of each pixel: the ray goes through a place of the film around the
+    /// pixel's centre, as the filter likes.
     #[inline]
-    pub fn for_each_sample(&self, tile: &mut Tile, mut radiance: impl FnMut(Vec2, &mut Sampler) -> Spectrum) {
+    pub fn for_each_sample(&self, tile: &mut Tile, mut radiance: impl FnMut(Ray, &mut Sampler<'_>) -> Spectrum) {
         tile.for_each_pixel(|pixel: UVec2, sum| {
             let center = pixel.as_vec2() + 0.5;
             for sample in self.samples.clone() {
-                let mut sampler = Sampler::Independent(Independent::new(self.seed, pixel, sample));
-                let offset = sampler.get_2d() - 0.5;
-                sum.add(radiance(center + offset, &mut sampler));
+                let mut sampler = self.numbers.sampler(pixel, sample);
+                let place = self.filter.sample(sampler.get_2d());
+                let ray = self.camera.ray(center + place.offset, &mut sampler);
+                sum.add(ray.map_or(Spectrum::BLACK, |ray| radiance(ray, &mut sampler) * place.weight));
             }
         });
     }

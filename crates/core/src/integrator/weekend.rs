@@ -24,26 +24,23 @@ pub struct Weekend {
 impl Integrator for Weekend {
     fn render(&self, scene: &Scene, unit: &Unit<'_>, tile: &mut Tile) -> u64 {
         let mut rays = 0;
-        unit.for_each_sample(tile, |film, sampler| {
-            let ray = unit.camera.ray(film, sampler);
-            self.ray_color(scene, ray, sampler, &mut rays)
-        });
+        unit.for_each_sample(tile, |ray, sampler| self.ray_color(scene, ray, sampler, &mut rays));
         rays
     }
 }
 
 impl Weekend {
     #[inline]
-    fn ray_color(&self, scene: &Scene, mut ray: Ray, sampler: &mut Sampler, rays: &mut u64) -> Spectrum {
+    fn ray_color(&self, scene: &Scene, mut ray: Ray, sampler: &mut Sampler<'_>, rays: &mut u64) -> Spectrum {
         let mut l = Spectrum::BLACK;
         let mut beta = Spectrum::ONE;
         for _ in 0..self.max_depth {
             *rays += 1;
             let Some(si) = scene.intersect(&ray) else {
-                return l + beta * scene.environment().le(ray.d);
+                return l + beta * scene.lights().le(ray.d, None);
             };
             l += beta * si.le();
-            let Some((sample, scattered)) = si.scatter(sampler) else {
+            let Some((sample, scattered)) = si.scatter(&si.bsdf(), sampler) else {
                 break;
             };
             beta *= sample.weight;

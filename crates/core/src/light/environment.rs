@@ -1,4 +1,4 @@
-//! The environment: the global illumination that a ray finds where it hits nothing.
+//! Light that comes from outside the scene.
 //!
 //! ```toml
 //! [environment.gradient]
@@ -6,14 +6,18 @@
 //! top = [0.5, 0.7, 1]
 //! ```
 
+use std::sync::Arc;
+
 use glam::Vec3;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 use crate::color::{Rgb, Spectrum};
+use crate::film::Image;
+use crate::light::lat_long::LatLong;
 use crate::validate::Checker;
 
-/// The sky as a scene states it: `[environment.KIND]`.
+/// The environment as a scene states it: `[environment.KIND]`.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "kebab-case")]
 pub enum EnvironmentDesc {
@@ -21,7 +25,9 @@ pub enum EnvironmentDesc {
     Gradient(Gradient),
     /// The same from everywhere.
     Constant(Constant),
-    /// No light: only surfaces shine.
+    /// A picture of latitude and longitude.
+    Image(ImageEnvironment),
+    /// No light: only surfaces and lights shine.
     None(NoLight),
 }
 
@@ -55,6 +61,28 @@ impl Default for Constant {
     }
 }
 
+/// A panorama of what is around: an HDRI.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct ImageEnvironment {
+    /// The picture (.hdr, .exr, .png), twice as wide as high: row 0 is straight above, the left edge looks along −z, and a
+    /// quarter of the way to the right is +x. A relative name is looked for beside the scene file.
+    pub file: String,
+    /// Turns the surroundings about the vertical, counter-clockwise seen from above, degrees.
+    #[serde(default)]
+    pub rotation: f32,
+    /// Factor on the picture's radiance, not negative.
+    #[serde(default = "unscaled")]
+    pub scale: f32,
+    /// The picture, once a reader has loaded it.
+    #[serde(skip)]
+    pub image: Option<Arc<Image>>,
+}
+
+fn unscaled() -> f32 {
+    1.0
+}
+
 /// Darkness; it has no settings.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
@@ -74,17 +102,52 @@ impl EnvironmentDesc {
                 c.radiance("top", g.top);
             }),
             Self::Constant(k) => c.within("constant", |c| c.radiance("radiance", k.radiance)),
+            Self::Image(i) => c.within("image", |c| {
+                c.in_range("rotation", i.rotation, -1e4, 1e4);
+                c.in_range("scale", i.scale, 0.0, 1e9);
+            }),
             Self::None(NoLight {}) => {}
         }
     }
 
+    pub(crate) fn compile(&self) -> Environment {
+        match self {
+            Self::Gradient(g) => Environment::Gradient { bottom: g.bottom.into(), top: g.top.into() },
+            Self::Constant(k) => Environment::Constant(k.radiance.into()),
+            Self::Image(i) => match &i.image {
+                Some(image) => Environment::Image(LatLong::new(image.clone(), i.rotation.to_radians(), i.scale, true)),
+                None => Environment::Constant(Spectrum::BLACK),
+            },
+            Self::None(NoLight {}) => Environment::Constant(Spectrum::BLACK),
+        }
+    }
+}
+
+/// Light from outside, ready to be looked up.
+#[derive(Clone, Debug)]
+pub(crate) enum Environment {
+    Gradient { bottom: Spectrum, top: Spectrum },
+    Constant(Spectrum),
+    Image(LatLong),
+}
+
+impl Environment {
     /// Radiance that arrives from the unit direction `w`.
     #[inline]
-    pub fn le(&self, w: Vec3) -> Spectrum {
+    pub(crate) fn le(&self, w: Vec3) -> Spectrum {
         match self {
-            Self::Gradient(g) => Spectrum::from(g.bottom).lerp(g.top.into(), 0.5 * (w.y + 1.0)),
-            Self::Constant(k) => k.radiance.into(),
-            Self::None(NoLight {}) => Spectrum::BLACK,
+            Self::Gradient { bottom, top } => bottom.lerp(*top, 0.5 * (w.y + 1.0)),
+            Self::Constant(radiance) => *radiance,
+            Self::Image(map) => map.le(w),
+        }
+    }
+
+    /// What is sampled. Even light is not: surfaces' own directions find it with less noise, and at no cost.
+    #[inline]
+    pub(crate) fn sampled(&self) -> Option<&LatLong> {
+        match self {
+            Self::Image(map) => Some(map).filter(|map| map.is_sampled()),
+            Self::Gradient { .. } | Self::Constant(_) => None,
         }
     }
 }

@@ -1,5 +1,94 @@
-//! Light that comes from no surface.
+//! Where light comes from: shining surfaces, lamps without size, the sun, the surroundings.
 
+mod area;
+mod directional;
 mod environment;
+mod lat_long;
+mod lights;
+mod point;
+pub mod select;
+mod spot;
 
-pub use environment::{Constant, EnvironmentDesc, Gradient, NoLight};
+use glam::Vec3;
+use schemars::JsonSchema;
+use serde::{Deserialize, Serialize};
+
+use crate::color::Spectrum;
+use crate::validate::Checker;
+
+pub use directional::DirectionalLight;
+pub use environment::{Constant, EnvironmentDesc, Gradient, ImageEnvironment, NoLight};
+pub use point::PointLight;
+pub use spot::SpotLight;
+
+pub(crate) use area::AreaLight;
+pub(crate) use directional::Disk;
+pub(crate) use lights::{Light, Lights, Scattered, power_heuristic};
+
+/// Lights that are no shapes: `[[light.KIND]]` adds one.
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields, default)]
+pub struct LightsDesc {
+    /// Points that shine into all directions.
+    pub point: Vec<PointLight>,
+    /// Points that shine into a cone.
+    pub spot: Vec<SpotLight>,
+    /// Suns.
+    pub directional: Vec<DirectionalLight>,
+}
+
+impl LightsDesc {
+    pub(crate) fn check(&self, c: &mut Checker) {
+        fn each<T>(c: &mut Checker, kind: &str, lights: &[T], check: impl Fn(&T, &mut Checker)) {
+            c.within(kind, |c| lights.iter().enumerate().for_each(|(i, light)| c.within(i, |c| check(light, c))));
+        }
+        each(c, "point", &self.point, PointLight::check);
+        each(c, "spot", &self.spot, SpotLight::check);
+        each(c, "directional", &self.directional, DirectionalLight::check);
+    }
+
+    /// Those that are somewhere.
+    pub(crate) fn near(&self) -> impl Iterator<Item = Light> {
+        let points = self.point.iter();
+        let points = points.map(|l| Light::Point { position: l.position(), intensity: l.intensity.into() });
+        let spots = self.spot.iter();
+        points.chain(spots.map(|l| Light::Spot { spot: l.compile(), intensity: l.intensity.into() }))
+    }
+
+    /// Those that are infinitely far away.
+    pub(crate) fn far(&self) -> impl Iterator<Item = Disk> {
+        self.directional.iter().map(DirectionalLight::compile)
+    }
+}
+
+/// A direction from which light arrives at a point.
+#[derive(Clone, Copy, Debug)]
+pub struct LightSample {
+    /// The unit direction.
+    pub wi: Vec3,
+    /// What must be seen from the point.
+    pub target: Target,
+    /// Radiance from there, W / (m² sr); irradiance (W / m²) facing the light if it is `delta`.
+    pub l: Spectrum,
+    /// Density per solid angle (1/sr) times the light's chance; the chance alone if it is `delta`.
+    pub pdf: f32,
+    /// Whether this is the only direction to the light.
+    pub delta: bool,
+}
+
+/// Where a light is.
+#[derive(Clone, Copy, Debug)]
+pub enum Target {
+    /// At a point, moved off the light's own surface.
+    On(Vec3),
+    /// Behind everything.
+    Infinity,
+}
+
+impl LightSample {
+    /// Of a light that was chosen with chance `pmf`.
+    #[inline]
+    fn chosen(self, pmf: f32) -> Self {
+        Self { pdf: self.pdf * pmf, ..self }
+    }
+}

@@ -1,9 +1,11 @@
 //! Independent uniform numbers from a counter.
 //!
-//! The key of a sample is a hash of (seed, pixel, sample); dimension k is a hash of key + k γ. Hash and step are
-//! those of SplitMix64: Steele, Lea & Flood 2014, doi:10.1145/2660193.2660195.
+//! The key of a sample is a hash of (seed, pixel, sample); dimension k is a hash of key + k γ: the hash and the step of
+//! SplitMix64.
 
 use glam::{UVec2, Vec2};
+
+use crate::sampler::hash::{GAMMA, mix, unit};
 
 /// Uniform random numbers, independent of each other.
 #[derive(Clone, Debug)]
@@ -30,31 +32,15 @@ impl Independent {
     /// The next number in [0, 1).
     #[inline]
     pub fn get_1d(&mut self) -> f32 {
-        unit((self.next() >> 40) as u32)
+        unit((self.next() >> 32) as u32)
     }
 
     /// The next two numbers in [0, 1).
     #[inline]
     pub fn get_2d(&mut self) -> Vec2 {
         let bits = self.next();
-        Vec2::new(unit((bits >> 40) as u32), unit((bits >> 8) as u32 & 0xff_ffff))
+        Vec2::new(unit((bits >> 32) as u32), unit(bits as u32))
     }
-}
-
-/// 2⁶⁴ divided by the golden ratio, odd.
-const GAMMA: u64 = 0x9e37_79b9_7f4a_7c15;
-
-#[inline]
-fn mix(mut z: u64) -> u64 {
-    z = (z ^ (z >> 30)).wrapping_mul(0xbf58_476d_1ce4_e5b9);
-    z = (z ^ (z >> 27)).wrapping_mul(0x94d0_49bb_1331_11eb);
-    z ^ (z >> 31)
-}
-
-/// 24 bits to [0, 1): every value is exact and below 1.
-#[inline]
-fn unit(bits: u32) -> f32 {
-    bits as f32 * (1.0 / (1 << 24) as f32)
 }
 
 #[cfg(test)]

@@ -13,7 +13,7 @@ use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 use crate::array::arrays;
-use crate::shape::ShapeDesc;
+use crate::shape::{ShapeDesc, Smooth};
 use crate::validate::Checker;
 
 /// Triangles that share vertices. The normal of triangle a, b, c is (b − a) × (c − a).
@@ -26,6 +26,9 @@ pub struct MeshDesc {
     /// Three indices into `vertices` each. Triangles without area are never hit.
     #[serde(deserialize_with = "arrays")]
     pub triangles: Vec<[u32; 3]>,
+    /// A normal at each vertex, of any length, if the mesh shall look round; else its triangles look flat.
+    #[serde(default, deserialize_with = "arrays")]
+    pub normals: Vec<[f32; 3]>,
     /// Name of a material; grey matte if absent.
     #[serde(default)]
     pub material: Option<String>,
@@ -45,6 +48,17 @@ impl ShapeDesc for MeshDesc {
             }
         });
         let count = self.vertices.len();
+        if !self.normals.is_empty() && self.normals.len() != count {
+            let message = format!("there are {} normals for {count} vertices", self.normals.len());
+            c.problem("normals", message, Some("give one for each vertex, or none".to_owned()));
+        }
+        c.within("normals", |c| {
+            for (i, normal) in
+                self.normals.iter().enumerate().filter(|(_, n)| !n.iter().copied().all(Checker::is_finite))
+            {
+                c.problem(i, format!("normal {i} is {normal:?}"), Some("use finite numbers".to_owned()));
+            }
+        });
         c.within("triangles", |c| {
             for (i, triangle) in self.triangles.iter().enumerate() {
                 if let Some(missing) = triangle.iter().find(|&&v| v as usize >= count) {
@@ -64,5 +78,9 @@ impl ShapeDesc for MeshDesc {
 
     fn material(&self) -> Option<&str> {
         self.material.as_deref()
+    }
+
+    fn smooth(&self) -> Option<Smooth> {
+        (!self.normals.is_empty()).then(|| Smooth::new(self.triangles.clone(), &self.normals))
     }
 }

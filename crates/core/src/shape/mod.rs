@@ -4,6 +4,7 @@
 
 mod mesh;
 mod quad;
+mod smooth;
 mod sphere;
 
 use eyebeam_bvh::{Bvh, Hit, Primitive, Ray, Surface};
@@ -11,10 +12,12 @@ use glam::{DVec3, Vec3};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
+use crate::math::offset_ray_origin;
 use crate::validate::Checker;
 
 pub use mesh::MeshDesc;
 pub use quad::QuadDesc;
+pub(crate) use smooth::Smooth;
 pub use sphere::SphereDesc;
 
 /// All shapes of a scene: `[[shape.KIND]]` adds one.
@@ -60,6 +63,11 @@ pub(crate) trait ShapeDesc {
 
     /// The name of its material.
     fn material(&self) -> Option<&str>;
+
+    /// Normals that make it look round.
+    fn smooth(&self) -> Option<Smooth> {
+        None
+    }
 }
 
 /// A point of a surface.
@@ -71,16 +79,35 @@ pub struct SurfacePoint {
     pub p_error: Vec3,
     /// Unit geometric normal.
     pub n: Vec3,
+    /// Unit shading normal, on the side of the geometric one; the same without normals in the mesh.
+    pub ns: Vec3,
+    /// From `p` to where rays start on the viewer's side.
+    lift: Vec3,
 }
 
 impl SurfacePoint {
-    /// Where `ray` hit `surface`.
+    /// Where `ray` hit `surface`, which is triangle `triangle` of a mesh with normals if there is `smooth`.
     #[inline]
-    pub fn new(surface: &Surface, ray: &Ray, hit: &Hit) -> Self {
+    pub(crate) fn new(surface: &Surface, ray: &Ray, hit: &Hit, smooth: Option<&Smooth>, triangle: u32) -> Self {
         match surface {
-            Surface::Flat { corner, edges } => Self::on_plane(*corner, *edges, hit),
             Surface::Sphere(s) => sphere::point(s, ray, hit),
+            Surface::Flat { corner, edges } => {
+                let flat = Self::on_plane(*corner, *edges, hit);
+                let Some(smooth) = smooth else {
+                    return flat;
+                };
+                let shading = smooth.shading(triangle, *edges, flat.n, ray.d, hit);
+                Self { ns: shading.ns, lift: shading.lift, ..flat }
+            }
         }
+    }
+
+    /// Where a ray along `w` starts, so that it does not meet this surface again. `viewer` is a direction to the side that
+    /// the point was seen from.
+    #[inline]
+    pub(crate) fn ray_origin(&self, viewer: Vec3, w: Vec3) -> Vec3 {
+        let lift = if (w.dot(self.n) > 0.0) == (viewer.dot(self.n) > 0.0) { self.lift } else { Vec3::ZERO };
+        offset_ray_origin(self.p + lift, self.p_error, self.n, w)
     }
 
     /// From a point that double precision has computed from lengths up to `reach`: rounding it to single precision is the
@@ -90,12 +117,13 @@ impl SurfacePoint {
         /// What the point and the next intersection with the shape may be off, in double precision, relative to `reach`.
         const DOUBLE: f64 = 16.0 * f64::EPSILON;
         let p = p.as_vec3();
-        Self { p, p_error: p.abs() * f32::EPSILON + (DOUBLE * reach) as f32, n }
+        let p_error = p.abs() * f32::EPSILON + (DOUBLE * reach) as f32;
+        Self { p, p_error, n, ns: n, lift: Vec3::ZERO }
     }
 
     /// From a point of the plane that two edges from `corner` span.
     #[inline]
-    fn on_plane(corner: DVec3, edges: [DVec3; 2], hit: &Hit) -> Self {
+    pub(crate) fn on_plane(corner: DVec3, edges: [DVec3; 2], hit: &Hit) -> Self {
         let n = edges[0].cross(edges[1]).normalize_or_zero().as_vec3();
         let p = corner + edges[0] * f64::from(hit.u) + edges[1] * f64::from(hit.v);
         let reach = corner.abs().max(edges[0].abs()).max(edges[1].abs()).max_element();

@@ -14,7 +14,7 @@ fn white_balls_vanish() {
     for (name, material) in [("matte", matte(1.0)), ("mirror", mirror())] {
         let mut desc = scene(WHITE, material, look([0.0, 0.0, 3.0], [0.0; 3], 60.0));
         desc.shape.sphere.push(sphere([0.0; 3], 1.0));
-        assert_everywhere(&render(&desc, settings(64, 64, 50)), 1.0, 0.0, name);
+        assert_every_way(&desc, &settings(64, 64, 50), 1.0, 0.0, name);
     }
 }
 
@@ -25,13 +25,13 @@ fn glass_vanishes() {
         let glass = MaterialDesc::Dielectric(Dielectric { eta });
         let mut desc = scene(WHITE, glass, look([0.0, 0.0, 3.0], [0.0; 3], 50.0));
         desc.shape.sphere.push(sphere([0.0; 3], 1.0));
-        assert_everywhere(&render(&desc, settings(32, 64, 10_000)), 1.0, 1e-6, "ball");
+        assert_every_way(&desc, &settings(32, 64, 10_000), 1.0, 1e-6, "ball");
         let inside = MaterialDesc::Dielectric(Dielectric { eta: 1.0 / eta });
         desc.material.insert("inside".to_owned(), inside);
         let mut bubble = sphere([0.0; 3], 0.9);
         bubble.material = Some("inside".to_owned());
         desc.shape.sphere.push(bubble);
-        assert_everywhere(&render(&desc, settings(32, 64, 10_000)), 1.0, 2e-6, "hollow ball");
+        assert_every_way(&desc, &settings(32, 64, 10_000), 1.0, 2e-6, "hollow ball");
     }
 }
 
@@ -42,7 +42,7 @@ fn glass_is_brighter_inside() {
         let glass = MaterialDesc::Dielectric(Dielectric { eta });
         let mut desc = scene(WHITE, glass, look([0.1, 0.0, 0.0], [0.0, 0.0, -1.0], 90.0));
         desc.shape.sphere.push(sphere([0.0; 3], 1.0));
-        assert_everywhere(&render(&desc, settings(16, 16, 1000)), eta * eta, 1e-6, "inside");
+        assert_every_way(&desc, &settings(16, 16, 1000), eta * eta, 1e-6, "inside");
     }
 }
 
@@ -55,7 +55,7 @@ fn paths_have_as_many_edges_as_allowed() {
     desc.shape.sphere.push(sphere([0.0; 3], 1.0));
     for depth in [0, 1, 2, 3, 10] {
         let expected = e * (1.0 - a.powi(depth)) / (1.0 - a);
-        assert_everywhere(&render(&desc, settings(16, 16, depth as u32)), expected, 1e-6, &format!("depth {depth}"));
+        assert_every_way(&desc, &settings(16, 16, depth as u32), expected, 1e-6, &format!("depth {depth}"));
     }
 }
 
@@ -66,10 +66,10 @@ fn boxes_keep_their_light() {
     let mut desc = scene(DARK, MaterialDesc::Emissive(emissive), look([0.1, 0.2, 0.3], [1.0, 0.0, 0.0], 100.0));
     let (lo, hi) = ([-0.25, -0.75, -0.25], [0.75, 0.5, 1.0]);
     desc.shape.quad = box_quads(lo, hi);
-    assert_everywhere(&render(&desc, settings(64, 64, 20)), 2.0, 1e-5, "quads");
+    assert_every_way(&desc, &settings(64, 64, 20), 2.0, 1e-5, "quads");
     desc.shape.quad.clear();
     desc.shape.mesh.push(box_mesh(lo, hi));
-    assert_everywhere(&render(&desc, settings(64, 64, 20)), 2.0, 1e-5, "triangles");
+    assert_every_way(&desc, &settings(64, 64, 20), 2.0, 1e-5, "triangles");
 }
 
 /// A camera has no body: a mirror that faces it shows what is behind.
@@ -78,5 +78,5 @@ fn cameras_are_not_seen() {
     let mut desc = scene(WHITE, mirror(), look([0.0, 1.0, 0.0], [0.0; 3], 40.0));
     desc.camera.aperture = Some(0.5);
     desc.shape.quad.push(floor(0.0, 10.0));
-    assert_everywhere(&render(&desc, settings(16, 16, 2)), 1.0, 0.0, "mirror");
+    assert_every_way(&desc, &settings(16, 16, 2), 1.0, 0.0, "mirror");
 }

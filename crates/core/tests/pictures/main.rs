@@ -1,6 +1,7 @@
 //! Pictures whose every pixel is known beforehand, and pictures that must be the same bits. Seeds are fixed, so a result
 //! never changes without the code.
 
+mod agreement;
 mod analytic;
 mod determinism;
 mod error;

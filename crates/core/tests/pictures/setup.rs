@@ -5,21 +5,42 @@ use std::num::NonZeroUsize;
 use eyebeam_core::camera::CameraDesc;
 use eyebeam_core::color::Rgb;
 use eyebeam_core::desc::SceneDesc;
-use eyebeam_core::film::{Film, Tile};
+use eyebeam_core::film::{BoxFilter, Film, FilterDesc, Tile};
 use eyebeam_core::integrator::IntegratorKind;
 use eyebeam_core::light::{Constant, EnvironmentDesc, NoLight};
 use eyebeam_core::material::{Emissive, Lambertian, MaterialDesc};
 use eyebeam_core::render::{Monitor, Render, Settings};
+use eyebeam_core::sampler::SamplerKind;
 use eyebeam_core::scene::Scene;
 use eyebeam_core::shape::{MeshDesc, QuadDesc, SphereDesc};
+use eyebeam_core::testing::z_test;
 
 pub(crate) const DARK: EnvironmentDesc = EnvironmentDesc::None(NoLight {});
+pub(crate) const BOX: FilterDesc = FilterDesc::Box(BoxFilter {});
 pub(crate) const WHITE: EnvironmentDesc = EnvironmentDesc::Constant(Constant { radiance: Rgb([1.0; 3]) });
 
-/// A square picture.
+/// A square picture by the plainest means: what theory is about.
 pub(crate) fn settings(side: u32, spp: u32, max_depth: u32) -> Settings {
-    let threads = NonZeroUsize::new(2).unwrap();
-    Settings { width: side, height: side, spp, max_depth, seed: 1, integrator: IntegratorKind::Weekend, threads }
+    Settings {
+        width: side,
+        height: side,
+        spp,
+        max_depth,
+        seed: 1,
+        integrator: IntegratorKind::Weekend,
+        sampler: SamplerKind::Independent,
+        filter: BOX,
+        threads: NonZeroUsize::new(2).unwrap(),
+    }
+}
+
+/// The same picture by every integrator with every sampler.
+pub(crate) fn every_way(settings: &Settings) -> Vec<(String, Settings)> {
+    let ways = IntegratorKind::NAMES.iter().flat_map(|i| SamplerKind::NAMES.iter().map(move |s| (i, s)));
+    let with = |(&(integrator_name, integrator), &(sampler_name, sampler)): (&(&str, _), &(&str, _))| {
+        (format!("{integrator_name}, {sampler_name}"), Settings { integrator, sampler, ..settings.clone() })
+    };
+    ways.map(with).collect()
 }
 
 pub(crate) fn finish(mut render: Render) -> Film {
@@ -33,6 +54,14 @@ pub(crate) fn finish(mut render: Render) -> Film {
 
 pub(crate) fn render(desc: &SceneDesc, settings: Settings) -> Film {
     finish(Render::new(&Scene::build(desc).unwrap(), settings))
+}
+
+/// Renders the same picture by every integrator with every sampler.
+pub(crate) fn render_every_way(desc: &SceneDesc, settings: &Settings, mut check: impl FnMut(&str, &Film)) {
+    let scene = Scene::build(desc).unwrap();
+    for (name, settings) in every_way(settings) {
+        check(&name, &finish(Render::new(&scene, settings)));
+    }
 }
 
 /// Standard error of each pixel, row by row.
@@ -88,7 +117,28 @@ pub(crate) fn box_mesh(lo: [f32; 3], hi: [f32; 3]) -> MeshDesc {
     let vertices = (0..8).map(|i| [at(i, 0), at(i, 1), at(i, 2)]).collect();
     let sides = [[0, 2, 3, 1], [4, 5, 7, 6], [0, 1, 5, 4], [2, 6, 7, 3], [0, 4, 6, 2], [1, 3, 7, 5]];
     let triangles = sides.iter().flat_map(|&[a, b, c, d]| [[a, b, c], [a, c, d]]).collect();
-    MeshDesc { vertices, triangles, material: Some("it".to_owned()) }
+    MeshDesc { vertices, triangles, normals: Vec::new(), material: Some("it".to_owned()) }
+}
+
+/// That every channel of every pixel is `expected`, with every sampler: by `weekend` but for `error` relative to it, by the
+/// others but for the noise that the film reports, and `error` in the mean over blocks.
+pub(crate) fn assert_every_way(desc: &SceneDesc, settings: &Settings, expected: f32, error: f32, name: &str) {
+    render_every_way(desc, settings, |way, film| {
+        let name = format!("{name}, {way}");
+        if way.starts_with("weekend") {
+            return assert_everywhere(film, expected, error, &name);
+        }
+        let image = film.develop();
+        // That of all pixels together: a pixel of few samples may have seen no rare path, and know of none.
+        let errors = standard_errors(film, image.width());
+        let pixels = (0..image.height()).flat_map(|y| (0..image.width()).map(move |x| (x, y)));
+        let noise = (pixels.map(|(x, y)| errors(x, y).powi(2)).sum::<f64>() / image.pixels().len() as f64).sqrt();
+        let floor = f64::from(expected * error);
+        for block in [1, 4, image.width()] {
+            z_test(&image, |_, _| f64::from(expected), |_, _| noise + floor, block)
+                .unwrap_or_else(|e| panic!("{name}, blocks of {block}: {e}"));
+        }
+    });
 }
 
 /// That every channel of every pixel is `expected`, but for `error` relative to it.

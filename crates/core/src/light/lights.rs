@@ -1,0 +1,197 @@
+//! All lights of a scene: which one a point asks, and with what chance.
+//!
+//! One light is drawn for each point: one of those in the scene by the light tree, or one that is infinitely far away, by
+//! about how much light each brings. What a surface finds by its own directions is weighed against what the lights would
+//! have sent: multiple importance sampling with the power heuristic (Veach & Guibas 1995, doi:10.1145/218380.218498).
+//! Even environments are not drawn at all; see [`Environment::sampled`](super::environment::Environment::sampled).
+
+use std::f32::consts::FRAC_1_PI;
+
+use glam::{Vec2, Vec3};
+
+use crate::color::{Rgb, Spectrum};
+use crate::light::area::AreaLight;
+use crate::light::directional::Disk;
+use crate::light::environment::Environment;
+use crate::light::select::{LightBounds, LightSelection, LightSelector};
+use crate::light::spot::Spot;
+use crate::light::{LightSample, Target};
+
+/// A light that is somewhere.
+#[derive(Clone, Copy, Debug)]
+pub(crate) enum Light {
+    Area(AreaLight),
+    Point { position: Vec3, intensity: Spectrum },
+    Spot { spot: Spot, intensity: Spectrum },
+}
+
+impl Light {
+    fn bounds(&self) -> LightBounds {
+        let luminance = |s: &Spectrum| Rgb(s.to_rgb()).luminance();
+        match self {
+            Self::Area(light) => light.bounds(),
+            // The tree takes a flux of π · intensity straight ahead, as surfaces have.
+            Self::Point { position, intensity } => {
+                LightBounds::all_around(*position, *position, 4.0 * std::f32::consts::PI * luminance(intensity))
+            }
+            Self::Spot { spot, intensity } => {
+                LightBounds::cone(spot.position, spot.axis, spot.cos_outer, spot.solid_angle() * luminance(intensity))
+            }
+        }
+    }
+
+    #[inline]
+    fn sample(&self, p: Vec3, u: Vec2) -> Option<LightSample> {
+        let from = |position: Vec3, intensity: Spectrum| {
+            let to = position - p;
+            let distance_sq = to.length_squared();
+            let wi = to.try_normalize()?;
+            let l = intensity * (1.0 / distance_sq);
+            Some(LightSample { wi, target: Target::On(position), l, pdf: 1.0, delta: true })
+        };
+        match self {
+            Self::Area(light) => light.sample(p, u),
+            Self::Point { position, intensity } => from(*position, *intensity),
+            Self::Spot { spot, intensity } => {
+                let sample = from(spot.position, *intensity)?;
+                let falloff = spot.falloff(-sample.wi);
+                (falloff > 0.0).then(|| LightSample { l: sample.l * falloff, ..sample })
+            }
+        }
+    }
+}
+
+/// Where the last direction was drawn by a surface, and how: what its light is weighed by.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Scattered {
+    pub(crate) p: Vec3,
+    pub(crate) n: Vec3,
+    /// Density of the direction, 1/sr.
+    pub(crate) pdf: f32,
+}
+
+/// All lights of a scene.
+#[derive(Clone, Debug)]
+pub(crate) struct Lights {
+    lights: Vec<Light>,
+    selector: LightSelector,
+    environment: Environment,
+    disks: Vec<Disk>,
+    /// Luminances of irradiances: of each disk, and of the environment if it is sampled.
+    weights: Vec<f32>,
+    weights_sum: f32,
+}
+
+impl Lights {
+    pub(crate) fn new(
+        lights: Vec<Light>,
+        selection: LightSelection,
+        environment: Environment,
+        disks: Vec<Disk>,
+    ) -> Self {
+        let bounds: Vec<_> = lights.iter().map(Light::bounds).collect();
+        let luminance = |s: Spectrum| Rgb(s.to_rgb()).luminance();
+        let far = environment.sampled().map_or(0.0, |map| luminance(map.mean_irradiance()));
+        let weights: Vec<_> = disks.iter().map(|disk| luminance(disk.irradiance())).chain([far]).collect();
+        let weights_sum = weights.iter().sum();
+        Self { selector: LightSelector::new(selection, &bounds), lights, environment, disks, weights, weights_sum }
+    }
+
+    /// Whether [`sample`](Self::sample) can draw anything.
+    #[inline]
+    pub(crate) fn is_sampled(&self) -> bool {
+        !self.lights.is_empty() || self.weights_sum > 0.0
+    }
+
+    /// Chance that a light in the scene is asked at a point.
+    #[inline]
+    fn near_chance(&self, p: Vec3, n: Vec3) -> f32 {
+        if self.lights.is_empty() {
+            return 0.0;
+        }
+        if self.weights_sum == 0.0 {
+            return 1.0;
+        }
+        // A surface of flux Φ gives an irradiance of up to Φ / (π d²).
+        let near = FRAC_1_PI * self.selector.importance(p, n);
+        if near.is_finite() { near / (near + self.weights_sum) } else { 0.5 }
+    }
+
+    /// Draws a light for a point with normal `n`, and a direction to it.
+    #[inline]
+    pub(crate) fn sample(&self, p: Vec3, n: Vec3, uc: f32, u: Vec2) -> Option<LightSample> {
+        let near = self.near_chance(p, n);
+        if uc < near {
+            let selected = self.selector.sample(p, n, (uc / near).min(BELOW_ONE))?;
+            let sample = self.lights[selected.index as usize].sample(p, u)?;
+            return Some(sample.chosen(near * selected.pmf));
+        }
+        let mut rest = (uc - near) / (1.0 - near) * self.weights_sum;
+        let last = self.weights.iter().rposition(|&w| w > 0.0)?;
+        let index = self.weights[..last].iter().position(|&w| {
+            let found = rest < w;
+            rest -= if found { 0.0 } else { w };
+            found
+        });
+        let index = index.unwrap_or(last);
+        let sample = match self.disks.get(index) {
+            Some(disk) => {
+                let (wi, l) = disk.sample(u);
+                LightSample { wi, target: Target::Infinity, l, pdf: disk.pdf(), delta: disk.is_delta() }
+            }
+            None => {
+                let (wi, l, pdf) = self.environment.sampled()?.sample(u)?;
+                LightSample { wi, target: Target::Infinity, l, pdf, delta: false }
+            }
+        };
+        Some(sample.chosen((1.0 - near) * self.weights[index] / self.weights_sum))
+    }
+
+    /// The share that light from a surface's own direction counts for, where it met `point` of light `index`.
+    #[inline]
+    pub(crate) fn weight(&self, scattered: Option<Scattered>, index: u32, point: Vec3) -> f32 {
+        let Some(Scattered { p, n, pdf }) = scattered else {
+            return 1.0;
+        };
+        let Light::Area(light) = &self.lights[index as usize] else {
+            return 1.0;
+        };
+        let chance = self.near_chance(p, n) * self.selector.pmf(p, n, index);
+        power_heuristic(pdf, chance * light.pdf(p, point))
+    }
+
+    /// Light from outside along `w`, each part by the share that it counts for.
+    #[inline]
+    pub(crate) fn le(&self, w: Vec3, scattered: Option<Scattered>) -> Spectrum {
+        let mut chance = None;
+        let mut weight = |index: usize, density: f32| match scattered {
+            Some(Scattered { p, n, pdf }) => {
+                let far = *chance.get_or_insert_with(|| 1.0 - self.near_chance(p, n));
+                power_heuristic(pdf, far * self.weights[index] / self.weights_sum * density)
+            }
+            None => 1.0,
+        };
+        let mut l = self.environment.le(w);
+        if let Some(map) = self.environment.sampled() {
+            l = l * weight(self.disks.len(), map.pdf(w));
+        }
+        for (index, disk) in self.disks.iter().enumerate() {
+            let seen = disk.le(w);
+            if !seen.is_black() {
+                l += seen * weight(index, disk.pdf());
+            }
+        }
+        l
+    }
+}
+
+/// The largest number below 1.
+const BELOW_ONE: f32 = 1.0 - f32::EPSILON / 2.0;
+
+/// The weight of a strategy of density `pdf` beside another.
+#[inline]
+pub(crate) fn power_heuristic(pdf: f32, other: f32) -> f32 {
+    // The quotient stays in range where squares would not.
+    let ratio = other / pdf;
+    if ratio.is_finite() { 1.0 / (1.0 + ratio * ratio) } else { 0.0 }
+}

@@ -1,0 +1,84 @@
+//! Shading normals: a mesh of flat triangles that looks round.
+//!
+//! The normals of a triangle's corners are interpolated over it. Where that goes wrong, three things are put right:
+//!
+//! - **Black edges**: near a silhouette the interpolated normal may point away from the viewer, or mirror the view into the
+//!   surface. It is bent until the mirrored direction is above the surface (Keller et al. 2017, "The Iray Light
+//!   Transport Simulation and Rendering System", arXiv:1705.01263).
+//! - **Leaks**: light that comes from the other side of the surface than the shading normal says does not count (Veach
+//!   1997, "Robust Monte Carlo Methods for Light Transport Simulation", §5.3); see
+//!   [`SurfaceInteraction`](crate::interaction::SurfaceInteraction).
+//! - **Shadow terminator**: flat triangles shade themselves where the light falls in at grazing angles. Rays leave
+//!   from the round surface that the normals describe (Hanika 2021, "Hacking the Shadow Terminator", Ray Tracing Gems II,
+//!   ch. 4, doi:10.1007/978-1-4842-7185-8_4).
+
+use eyebeam_bvh::Hit;
+use glam::{DVec3, Vec3};
+
+use crate::math::reflect_at;
+
+/// The normals at the corners of a mesh's triangles.
+#[derive(Clone, Debug)]
+pub(crate) struct Smooth {
+    triangles: Vec<[u32; 3]>,
+    normals: Vec<Vec3>,
+}
+
+/// How a point of a smooth mesh is shaded.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Shading {
+    /// Unit shading normal, on the side of the geometric one.
+    pub(super) ns: Vec3,
+    /// From the point on the triangle to that on the round surface, on the viewer's side.
+    pub(super) lift: Vec3,
+}
+
+impl Smooth {
+    /// One normal a vertex, of any length; triangles with a vertex whose normal has none stay flat.
+    pub(crate) fn new(triangles: Vec<[u32; 3]>, normals: &[[f32; 3]]) -> Self {
+        Self { triangles, normals: normals.iter().map(|&n| Vec3::from(n).normalize_or_zero()).collect() }
+    }
+
+    /// At a point of a triangle of geometric normal `n` that is seen along a ray of direction `d`.
+    #[inline]
+    pub(super) fn shading(&self, triangle: u32, [e1, e2]: [DVec3; 2], n: Vec3, d: Vec3, hit: &Hit) -> Shading {
+        let flat = Shading { ns: n, lift: Vec3::ZERO };
+        let Some(&indices) = self.triangles.get(triangle as usize) else {
+            return flat;
+        };
+        let normals = indices.map(|i| self.normals.get(i as usize).copied().unwrap_or_default());
+        let weights = [1.0 - hit.u - hit.v, hit.u, hit.v];
+        let interpolated = normals[0] * weights[0] + normals[1] * weights[1] + normals[2] * weights[2];
+        let Some(ns) = interpolated.try_normalize().filter(|_| normals.iter().all(|&n| n != Vec3::ZERO)) else {
+            return flat;
+        };
+        // Some files have normals on the wrong side.
+        let ns = if ns.dot(n) < 0.0 { -ns } else { ns };
+        let side = 1.0_f32.copysign(-d.dot(n));
+        let to_point = e1 * f64::from(hit.u) + e2 * f64::from(hit.v);
+        let from_corners = [to_point, to_point - e1, to_point - e2].map(|v| v.as_vec3());
+        let mut lift = Vec3::ZERO;
+        for ((from, normal), weight) in from_corners.into_iter().zip(normals).zip(weights) {
+            // On the viewer's side of the triangle, how far the point is below the tangent plane at the corner.
+            let normal = normal * side.copysign(normal.dot(n) * side);
+            lift -= normal * (weight * from.dot(normal).min(0.0));
+        }
+        Shading { ns: side * visible(side * ns, side * n, -d), lift }
+    }
+}
+
+/// Bends a shading normal until the direction in which it mirrors the view is above the surface. All are unit vectors on the
+/// viewer's side.
+#[inline]
+fn visible(ns: Vec3, n: Vec3, wo: Vec3) -> Vec3 {
+    /// How far above, at least: the sine of the angle.
+    const ABOVE: f32 = 0.01;
+    let mirrored = reflect_at(wo, ns);
+    let height = mirrored.dot(n);
+    let least = ABOVE.min(0.9 * wo.dot(n));
+    if height >= least {
+        return ns;
+    }
+    let raised = mirrored + n * (least - height);
+    (wo + raised.normalize_or(n)).normalize_or(n)
+}

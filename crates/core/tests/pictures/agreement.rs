@@ -1,0 +1,204 @@
+//! `path` is `weekend` in the mean: block by block, at every depth, where light sampling helps, where it is of no use, and
+//! where it cannot work.
+
+use std::f32::consts::TAU;
+use std::sync::Arc;
+
+use eyebeam_core::color::Rgb;
+use eyebeam_core::desc::SceneDesc;
+use eyebeam_core::film::{Film, Image};
+use eyebeam_core::integrator::IntegratorKind;
+use eyebeam_core::light::{DirectionalLight, EnvironmentDesc, ImageEnvironment};
+use eyebeam_core::material::{Dielectric, Emissive, MaterialDesc, Metal};
+use eyebeam_core::render::Settings;
+use eyebeam_core::shape::{MeshDesc, QuadDesc};
+use eyebeam_core::testing::z_test;
+
+use crate::setup::*;
+
+fn quad(corner: [f32; 3], u: [f32; 3], v: [f32; 3], material: &str) -> QuadDesc {
+    QuadDesc { corner, u, v, material: Some(material.to_owned()) }
+}
+
+fn with(desc: &mut SceneDesc, name: &str, material: MaterialDesc) {
+    desc.material.insert(name.to_owned(), material);
+}
+
+fn metal(roughness: f32) -> MaterialDesc {
+    MaterialDesc::Metal(Metal { albedo: Rgb([0.9, 0.7, 0.4]), roughness })
+}
+
+fn glass() -> MaterialDesc {
+    MaterialDesc::Dielectric(Dielectric::default())
+}
+
+/// A ball on a floor.
+fn still_life(environment: EnvironmentDesc) -> SceneDesc {
+    let mut desc = scene(environment, matte(0.7), look([0.0, 1.2, 4.0], [0.0, 0.5, 0.0], 45.0));
+    desc.shape.quad.push(floor(0.0, 8.0));
+    desc.shape.sphere.push(sphere([0.0, 0.5, 0.0], 0.5));
+    desc
+}
+
+/// A matte room with a lamp below the ceiling: light sampling finds what chance seldom does.
+fn room() -> SceneDesc {
+    let mut desc = scene(DARK, matte(0.6), look([0.0, 0.0, 3.5], [0.0; 3], 45.0));
+    with(&mut desc, "lamp", lamp(5.0));
+    desc.shape.quad = box_quads([-1.0; 3], [1.0; 3]);
+    desc.shape.quad.remove(5);
+    desc.shape.quad.push(quad([-0.5, 0.99, -0.5], [1.0, 0.0, 0.0], [0.0, 0.0, 1.0], "lamp"));
+    desc.shape.sphere.push(sphere([0.3, -0.6, 0.2], 0.4));
+    desc
+}
+
+/// An even sky, which is not sampled.
+fn outside() -> SceneDesc {
+    let mut desc = still_life(EnvironmentDesc::default());
+    with(&mut desc, "rough", metal(0.4));
+    desc.shape.sphere.push(sphere([1.1, 0.5, 0.0], 0.5));
+    desc.shape.sphere[1].material = Some("rough".to_owned());
+    desc
+}
+
+/// A lamp inside a ball of glass, and one seen in a mirror: shadow rays never reach them.
+fn behind_glass() -> SceneDesc {
+    let mut desc = still_life(DARK);
+    for (name, material) in [("lamp", lamp(8.0)), ("glass", glass()), ("mirror", metal(0.0))] {
+        with(&mut desc, name, material);
+    }
+    for (center, radius, name) in
+        [([1.2, 0.9, 0.4], 0.85, "glass"), ([1.2, 0.9, 0.4], 0.6, "lamp"), ([-1.3, 0.6, 0.0], 0.6, "mirror")]
+    {
+        desc.shape.sphere.push(sphere(center, radius));
+        desc.shape.sphere.last_mut().unwrap().material = Some(name.to_owned());
+    }
+    desc
+}
+
+/// Rough metal under large and small lamps of every shape, one of which shines on both sides.
+fn lamps() -> SceneDesc {
+    let mut desc = still_life(DARK);
+    for (name, material) in [("it", metal(0.5)), ("lamp", lamp(4.0)), ("dim", lamp(1.5))] {
+        with(&mut desc, name, material);
+    }
+    let both = Emissive { radiance: Rgb([1.0, 2.0, 3.0]), albedo: Rgb::grey(0.5), two_sided: true };
+    with(&mut desc, "both", MaterialDesc::Emissive(both));
+    desc.shape.sphere.push(sphere([-1.5, 1.5, -0.5], 0.6));
+    desc.shape.sphere[1].material = Some("lamp".to_owned());
+    desc.shape.quad.push(quad([1.0, 0.3, -1.0], [0.5, 1.0, 0.0], [0.0, 0.6, 1.5], "both"));
+    desc.shape.quad.push(quad([-1.0, 3.0, -1.0], [2.0, 0.0, 0.0], [0.0, 0.0, 2.0], "dim"));
+    desc.shape.mesh.push(MeshDesc {
+        vertices: vec![[0.5, 2.0, 1.0], [2.0, 2.2, 1.0], [1.0, 1.5, -1.5], [-1.0, 2.5, -2.0]],
+        triangles: vec![[0, 1, 2], [0, 2, 3]],
+        normals: Vec::new(),
+        material: Some("lamp".to_owned()),
+    });
+    desc
+}
+
+/// Inside of a ball that shines inwards, and a lamp so close to the floor that it fills most of its sky.
+fn enclosed() -> SceneDesc {
+    let mut desc = still_life(DARK);
+    let both = Emissive { radiance: Rgb([0.2, 0.3, 0.4]), albedo: Rgb::grey(0.4), two_sided: true };
+    with(&mut desc, "shell", MaterialDesc::Emissive(both));
+    with(&mut desc, "lamp", lamp(2.0));
+    desc.shape.sphere.push(sphere([0.0; 3], 6.0));
+    desc.shape.sphere[1].material = Some("shell".to_owned());
+    desc.shape.quad.push(quad([-2.0, 0.02, -1.0], [1.5, 0.0, 0.0], [0.0, 0.0, 2.0], "lamp"));
+    desc
+}
+
+/// A picture of the sky with bright spots, turned, over matte, metal and glass.
+fn panorama() -> SceneDesc {
+    let (width, height) = (64, 32);
+    let mut image = Image::new(width, height);
+    for (x, y) in (0..height).flat_map(|y| (0..width).map(move |x| (x, y))) {
+        let near = |cx: f32, cy: f32| (-((x as f32 - cx).powi(2) + (y as f32 - cy).powi(2)) / 8.0).exp();
+        let base = 0.2 + 0.1 * (x as f32 / width as f32 * TAU).sin();
+        let (a, b) = (near(20.0, 8.0), near(50.0, 14.0));
+        image.set_pixel(x, y, [base + 30.0 * a, base + 20.0 * a + 5.0 * b, base + 10.0 * a + 15.0 * b]);
+    }
+    let file = "sky".to_owned();
+    let map = ImageEnvironment { file, rotation: 40.0, scale: 0.7, image: Some(Arc::new(image)) };
+    let mut desc = outside();
+    desc.environment = EnvironmentDesc::Image(map);
+    with(&mut desc, "glass", glass());
+    desc.shape.sphere.push(sphere([-1.1, 0.5, 0.2], 0.5));
+    desc.shape.sphere[2].material = Some("glass".to_owned());
+    desc
+}
+
+/// A large sun and a lamp, which share the shadow rays, over a mesh that looks round.
+fn sun() -> SceneDesc {
+    let mut desc = still_life(EnvironmentDesc::default());
+    let direction = [0.6, 0.7, 0.3];
+    desc.light.directional.push(DirectionalLight { direction, irradiance: Rgb([3.0, 2.5, 2.0]), angle: 25.0 });
+    with(&mut desc, "lamp", lamp(6.0));
+    with(&mut desc, "glass", glass());
+    desc.shape.sphere.push(sphere([-1.3, 1.0, 0.0], 0.4));
+    desc.shape.sphere[1].material = Some("lamp".to_owned());
+    for (x, material) in [(1.0, "it"), (-0.6, "glass")] {
+        let mut ball = octahedron([x, 0.6, 0.8], 0.5);
+        ball.material = Some(material.to_owned());
+        desc.shape.mesh.push(ball);
+    }
+    desc
+}
+
+/// Eight triangles with the normals of a ball.
+fn octahedron(center: [f32; 3], radius: f32) -> MeshDesc {
+    let normals =
+        vec![[1.0, 0.0, 0.0], [-1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, -1.0, 0.0], [0.0, 0.0, 1.0], [0.0, 0.0, -1.0]];
+    let vertex = |n: &[f32; 3]| std::array::from_fn(|i| center[i] + radius * n[i]);
+    let corner = |i: u32, axis: u32| 2 * axis + (i >> axis & 1);
+    let triangle = |i: u32| {
+        let [x, y, z] = [0, 1, 2].map(|axis| corner(i, axis));
+        if i.count_ones() % 2 == 0 { [x, y, z] } else { [x, z, y] }
+    };
+    MeshDesc {
+        vertices: normals.iter().map(vertex).collect(),
+        triangles: (0..8).map(triangle).collect(),
+        normals,
+        material: Some("it".to_owned()),
+    }
+}
+
+/// Block by block, within what both films say of their noise.
+fn assert_agree(a: &Film, b: &Film, block: u32, name: &str) {
+    let (a_image, b_image) = (a.develop(), b.develop());
+    let width = a_image.width();
+    let (a_error, b_error) = (standard_errors(a, width), standard_errors(b, width));
+    let expected = |x: u32, y: u32| f64::from(Rgb(b_image.pixel(x, y)).luminance());
+    let error = |x: u32, y: u32| a_error(x, y).hypot(b_error(x, y));
+    for block in [block, width] {
+        z_test(&a_image, expected, error, block).unwrap_or_else(|e| panic!("{name}, blocks of {block}: {e}"));
+    }
+}
+
+fn check(name: &str, desc: &SceneDesc) {
+    for (max_depth, spp) in [(1, 16), (2, 512), (3, 512), (50, 512)] {
+        let weekend = Settings { height: 24, seed: 3, ..settings(32, spp, max_depth) };
+        let path = Settings { integrator: IntegratorKind::Path, seed: 4, ..weekend.clone() };
+        let name = format!("{name} at depth {max_depth}");
+        assert_agree(&render(desc, path), &render(desc, weekend), 8, &name);
+    }
+}
+
+#[test]
+fn where_light_sampling_helps() {
+    check("room", &room());
+    check("lamps", &lamps());
+    check("panorama", &panorama());
+    check("sun", &sun());
+}
+
+#[test]
+fn where_light_sampling_is_useless() {
+    check("outside", &outside());
+    check("enclosed", &enclosed());
+}
+
+#[test]
+fn where_light_sampling_is_impossible() {
+    check("behind glass", &behind_glass());
+}
