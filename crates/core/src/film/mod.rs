@@ -4,9 +4,11 @@
 //! many threads, several machines or an interrupted and resumed render give the same bits.
 
 mod exact;
+mod filter;
 mod image;
 mod tile;
 
+pub use filter::{BlackmanHarris, BoxFilter, Filter, FilterDesc, FilterSample, Gaussian, Mitchell, Tent};
 pub use image::Image;
 pub use tile::{PixelSum, Tile};
 
