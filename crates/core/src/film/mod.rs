@@ -8,7 +8,7 @@ mod filter;
 mod image;
 mod tile;
 
-pub use filter::{BoxFilter, Filter, FilterDesc, FilterSample};
+pub use filter::{BlackmanHarris, BoxFilter, Filter, FilterDesc, FilterSample, Gaussian, Mitchell, Tent};
 pub use image::Image;
 pub use tile::{PixelSum, Tile};
 

@@ -42,6 +42,15 @@ pub fn uniform_ball(uc: f32, u: Vec2) -> Vec3 {
     libm::cbrtf(uc) * uniform_sphere(u)
 }
 
+/// A uniform point of a triangle: (u, v) stands for a + u (b − a) + v (c − a). Neighbours stay together, and none of the
+/// square is folded over.
+///
+/// Heitz 2019, "A Low-Distortion Map Between Triangle and Square".
+#[inline]
+pub fn uniform_triangle(u: Vec2) -> Vec2 {
+    if u.y > u.x { Vec2::new(0.5 * u.x, u.y - 0.5 * u.x) } else { Vec2::new(u.x - 0.5 * u.y, 0.5 * u.y) }
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -81,6 +90,16 @@ mod tests {
             let w = cosine_hemisphere(u);
             assert!((w.length() - 1.0).abs() < 1e-5);
             [1.0 - w.z * w.z, turn(w.x, w.y)]
+        });
+    }
+
+    /// v / (1 − u) is uniform, and so is what the points beyond u leave: (1 − u)².
+    #[test]
+    fn triangle_is_uniform() {
+        check_uniform(|_, u| {
+            let p = uniform_triangle(u);
+            assert!(p.min_element() >= 0.0 && p.element_sum() <= 1.0);
+            [(1.0 - p.x).powi(2), p.y / (1.0 - p.x).max(f32::MIN_POSITIVE)]
         });
     }
 
