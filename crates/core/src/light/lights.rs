@@ -5,7 +5,7 @@
 //! have sent: multiple importance sampling with the power heuristic (Veach & Guibas 1995, doi:10.1145/218380.218498).
 //! Even environments are not drawn at all; see [`Environment::sampled`](super::environment::Environment::sampled).
 
-use std::f32::consts::FRAC_1_PI;
+use std::f32::consts::PI;
 
 use glam::{Vec2, Vec3};
 
@@ -30,13 +30,8 @@ impl Light {
         let luminance = |s: &Spectrum| Rgb(s.to_rgb()).luminance();
         match self {
             Self::Area(light) => light.bounds(),
-            // The tree takes a flux of π · intensity straight ahead, as surfaces have.
-            Self::Point { position, intensity } => {
-                LightBounds::all_around(*position, *position, 4.0 * std::f32::consts::PI * luminance(intensity))
-            }
-            Self::Spot { spot, intensity } => {
-                LightBounds::cone(spot.position, spot.axis, spot.cos_outer, spot.solid_angle() * luminance(intensity))
-            }
+            Self::Point { position, intensity } => LightBounds::sphere(*position, 0.0, 4.0 * PI * luminance(intensity)),
+            Self::Spot { spot, intensity } => spot.bounds(luminance(intensity)),
         }
     }
 
@@ -112,9 +107,9 @@ impl Lights {
         if self.weights_sum == 0.0 {
             return 1.0;
         }
-        // A surface of flux Φ gives an irradiance of up to Φ / (π d²).
-        let near = FRAC_1_PI * self.selector.importance(p, n);
-        if near.is_finite() { near / (near + self.weights_sum) } else { 0.5 }
+        // At most half of the largest number, so that the sum is one.
+        let near = self.selector.importance(p, n).min(0.5 * f32::MAX);
+        near / (near + self.weights_sum)
     }
 
     /// Draws a light for a point with normal `n`, and a direction to it.

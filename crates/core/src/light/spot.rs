@@ -12,6 +12,8 @@
 //! outer = 25
 //! ```
 
+use std::f32::consts::TAU;
+
 use glam::Vec3;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
@@ -19,6 +21,7 @@ use serde::{Deserialize, Serialize};
 use crate::array::array;
 use crate::color::Rgb;
 use crate::light::point::one;
+use crate::light::select::LightBounds;
 use crate::validate::Checker;
 
 /// A lamp without size that shines into a cone.
@@ -75,9 +78,9 @@ impl SpotLight {
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Spot {
     pub(super) position: Vec3,
-    pub(super) axis: Vec3,
+    axis: Vec3,
     cos_inner: f32,
-    pub(super) cos_outer: f32,
+    cos_outer: f32,
 }
 
 impl Spot {
@@ -92,9 +95,15 @@ impl Spot {
         t * t * (3.0 - 2.0 * t)
     }
 
-    /// ∫ falloff dω: the intensity times this is the flux.
-    pub(super) fn solid_angle(&self) -> f32 {
+    /// Where it is and how much it shines, at an intensity of this luminance.
+    pub(super) fn bounds(&self, intensity: f32) -> LightBounds {
         // The integral of 3t² − 2t³ over the rim is half its width.
-        std::f32::consts::TAU * (1.0 - self.cos_inner + 0.5 * (self.cos_inner - self.cos_outer))
+        let solid_angle = TAU * (1.0 - self.cos_inner + 0.5 * (self.cos_inner - self.cos_outer));
+        let bounds = LightBounds::sphere(self.position, 0.0, intensity * solid_angle);
+        if self.cos_outer > 0.0 {
+            LightBounds { axis: self.axis, cos_theta_o: 1.0, cos_theta_e: self.cos_outer, ..bounds }
+        } else {
+            bounds
+        }
     }
 }

@@ -8,7 +8,7 @@ mod smooth;
 mod sphere;
 
 use eyebeam_bvh::{Bvh, Hit, Primitive, Ray, Surface};
-use glam::{DVec3, Vec3};
+use glam::{DVec3, Vec2, Vec3};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
@@ -92,7 +92,7 @@ impl SurfacePoint {
         match surface {
             Surface::Sphere(s) => sphere::point(s, ray, hit),
             Surface::Flat { corner, edges } => {
-                let flat = Self::on_plane(*corner, *edges, hit);
+                let flat = Self::on_plane(*corner, *edges, Vec2::new(hit.u, hit.v));
                 let Some(smooth) = smooth else {
                     return flat;
                 };
@@ -121,11 +121,17 @@ impl SurfacePoint {
         Self { p, p_error, n, ns: n, lift: Vec3::ZERO }
     }
 
+    /// From a sphere and the direction of a point of it from its centre.
+    #[inline]
+    pub(crate) fn on_sphere(center: DVec3, radius: f64, n: DVec3) -> Self {
+        Self::rounded(center + n * radius, center.abs().max_element() + radius, n.as_vec3())
+    }
+
     /// From a point of the plane that two edges from `corner` span.
     #[inline]
-    pub(crate) fn on_plane(corner: DVec3, edges: [DVec3; 2], hit: &Hit) -> Self {
+    pub(crate) fn on_plane(corner: DVec3, edges: [DVec3; 2], uv: Vec2) -> Self {
         let n = edges[0].cross(edges[1]).normalize_or_zero().as_vec3();
-        let p = corner + edges[0] * f64::from(hit.u) + edges[1] * f64::from(hit.v);
+        let p = corner + edges[0] * f64::from(uv.x) + edges[1] * f64::from(uv.y);
         let reach = corner.abs().max(edges[0].abs()).max(edges[1].abs()).max_element();
         Self::rounded(p, reach, n)
     }

@@ -50,7 +50,5 @@ impl ShapeDesc for SphereDesc {
 pub(super) fn point(sphere: &Sphere, ray: &Ray, hit: &Hit) -> SurfacePoint {
     let center = sphere.center.as_dvec3();
     let on_ray = ray.o.as_dvec3() + ray.d.as_dvec3() * f64::from(hit.t);
-    let n = (on_ray - center).normalize();
-    let radius = f64::from(sphere.radius);
-    SurfacePoint::rounded(center + n * radius, center.abs().max_element() + radius, n.as_vec3())
+    SurfacePoint::on_sphere(center, sphere.radius.into(), (on_ray - center).normalize())
 }
