@@ -1,26 +1,40 @@
-//! Dielectric: smooth glass, water, diamond.
+//! Dielectric: glass, water, diamond, smooth or frosted.
 //!
 //! Light is either reflected, with the chance that Fresnel's equations give for unpolarised light, or refracted by
 //! Snell's law; past the critical angle all of it is reflected. Refracted radiance is divided by eta², as it spreads over
 //! another solid angle (Veach 1997, Robust Monte Carlo Methods, §5.2); entering and leaving cancel.
+//!
+//! A rough one does so at facets (see [`Ggx`]) of alpha = roughness². With h = wo + eta wi along the facet's normal m,
+//!
+//! f cos θᵢ = R D G₂ / (4 cos θₒ) for reflection, f cos θᵢ = (1 − R) D G₁(wo) G₁(wi) |wo · m| |wi · m| / (cos θₒ |h|²)
+//! for refraction.
+//!
+//! Visible normals are drawn, so samples weigh G₂ / G₁(wo) and G₁(wi) / eta². Walter et al. 2007,
+//! doi:10.2312/EGWR/EGSR07/195-206. Light from facet to facet is lost. f(wo, wi) eta² = f(wi, wo), where eta is the index on
+//! the side of `wi` over that on the side of `wo`.
 //!
 //! A hollow ball is a ball of glass with a smaller one of eta = 1/1.5 inside.
 //!
 //! ```toml
 //! [material.glass.dielectric]
 //! eta = 1.5
+//!
+//! [material.frosted.dielectric]
+//! eta = 1.5
+//! roughness = 0.4
 //! ```
 
-use glam::Vec3;
+use glam::{Vec2, Vec3};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 use crate::color::Spectrum;
-use crate::material::BsdfSample;
+use crate::material::microfacet::{Ggx, reflect_at, refract_at, upright};
+use crate::material::{BsdfSample, Fresnel};
 use crate::math::{reflect, refract};
 use crate::validate::Checker;
 
-/// Clear and smooth: reflects and refracts.
+/// Clear: reflects and refracts.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields, default)]
 pub struct Dielectric {
@@ -28,73 +42,122 @@ pub struct Dielectric {
     /// 1.33, diamond 2.42.
     #[schemars(range(min = 0.01, max = 100.0))]
     pub eta: f32,
+    /// 0 is polished, 1 completely rough; alpha is its square. It is polished, too, where it would blur by less than 0.03
+    /// degrees: for glass below 0.04.
+    #[schemars(range(min = 0.0, max = 1.0))]
+    pub roughness: f32,
 }
 
 impl Default for Dielectric {
     fn default() -> Self {
-        Self { eta: 1.5 }
+        Self { eta: 1.5, roughness: 0.0 }
     }
 }
 
 impl Dielectric {
     pub(crate) fn check(&self, c: &mut Checker) {
         c.in_range("eta", self.eta, 0.01, 100.0);
+        c.in_range("roughness", self.roughness, 0.0, 1.0);
     }
 
     #[inline]
     pub(crate) fn bsdf(&self) -> DielectricBsdf {
-        DielectricBsdf { eta: self.eta }
+        DielectricBsdf { eta: self.eta, ggx: Ggx::from_roughness(self.roughness) }
     }
 }
 
-/// The lobe of [`Dielectric`]: two delta directions.
+/// The lobe of [`Dielectric`].
 #[derive(Clone, Copy, Debug)]
 pub struct DielectricBsdf {
     eta: f32,
+    ggx: Ggx,
 }
 
 impl DielectricBsdf {
+    /// The refracted lobe is as narrow as the facets' slopes and the bend at each are small.
     #[inline]
-    pub(crate) fn sample(&self, wo: Vec3, uc: f32) -> Option<BsdfSample> {
-        let eta = if wo.z > 0.0 { self.eta } else { 1.0 / self.eta };
+    pub(crate) fn is_delta(&self) -> bool {
+        self.ggx.alpha() * (self.eta - 1.0).abs() < Ggx::MIN_ALPHA * self.eta.max(1.0)
+    }
+
+    /// The index behind the surface over that before it, as seen from `wo`.
+    #[inline]
+    fn eta_from(&self, wo: Vec3) -> f32 {
+        if wo.z > 0.0 { self.eta } else { 1.0 / self.eta }
+    }
+
+    #[inline]
+    pub(crate) fn sample(&self, wo: Vec3, uc: f32, u: Vec2) -> Option<BsdfSample> {
+        let eta = self.eta_from(wo);
+        if self.is_delta() { Some(Self::sample_smooth(wo, eta, uc)) } else { self.sample_rough(wo, eta, uc, u) }
+    }
+
+    #[inline]
+    fn sample_smooth(wo: Vec3, eta: f32, uc: f32) -> BsdfSample {
         let fresnel = Fresnel::dielectric(wo.z.abs(), eta);
-        Some(if uc < fresnel.reflectance {
-            BsdfSample { wi: reflect(wo), weight: Spectrum::ONE, pdf: fresnel.reflectance, delta: true }
+        if uc < fresnel.reflectance {
+            BsdfSample { wi: reflect(wo), weight: Spectrum::ONE, pdf: fresnel.reflectance, delta: true, eta: 1.0 }
         } else {
             let weight = Spectrum::ONE * (1.0 / (eta * eta));
-            BsdfSample { wi: refract(wo, eta, fresnel.cos_t), weight, pdf: 1.0 - fresnel.reflectance, delta: true }
-        })
-    }
-}
-
-/// What happens to unpolarised light at a smooth boundary.
-#[derive(Clone, Copy, Debug)]
-pub struct Fresnel {
-    /// Share that is reflected, 0..1.
-    pub reflectance: f32,
-    /// Cosine of the refracted angle; 0 if all is reflected.
-    pub cos_t: f32,
-}
-
-impl Fresnel {
-    /// Fresnel's equations; `cos_i` >= 0 is the cosine of the angle of incidence, `eta` the index behind over before.
-    #[inline]
-    pub fn dielectric(cos_i: f32, eta: f32) -> Self {
-        let sin_sq_t = (1.0 - cos_i * cos_i).max(0.0) / (eta * eta);
-        if sin_sq_t >= 1.0 {
-            return Self { reflectance: 1.0, cos_t: 0.0 };
+            let pdf = 1.0 - fresnel.reflectance;
+            BsdfSample { wi: refract(wo, eta, fresnel.cos_t), weight, pdf, delta: true, eta }
         }
-        let cos_t = (1.0 - sin_sq_t).sqrt();
-        let parallel = (eta * cos_i - cos_t) / (eta * cos_i + cos_t);
-        let perpendicular = (cos_i - eta * cos_t) / (cos_i + eta * cos_t);
-        Self { reflectance: 0.5 * (parallel * parallel + perpendicular * perpendicular), cos_t }
+    }
+
+    #[inline]
+    fn sample_rough(&self, wo: Vec3, eta: f32, uc: f32, u: Vec2) -> Option<BsdfSample> {
+        let side = 1.0_f32.copysign(wo.z);
+        let up = upright(wo, side);
+        let m = self.ggx.sample(up, u);
+        let fresnel = Fresnel::dielectric(up.dot(m).clamp(0.0, 1.0), eta);
+        let reflected = uc < fresnel.reflectance;
+        let wi = if reflected { reflect_at(up, m) } else { refract_at(up, m, eta, fresnel.cos_t) };
+        if reflected != (wi.z > 0.0) {
+            return None;
+        }
+        let (weight, pdf) = self.weight_pdf(up, wi, eta)?;
+        let eta = if reflected { 1.0 } else { eta };
+        Some(BsdfSample { wi: upright(wi, side), weight: Spectrum::ONE * weight, pdf, delta: false, eta })
+    }
+
+    #[inline]
+    pub(crate) fn eval_pdf(&self, wo: Vec3, wi: Vec3) -> (Spectrum, f32) {
+        let side = 1.0_f32.copysign(wo.z);
+        if self.is_delta() {
+            return (Spectrum::BLACK, 0.0);
+        }
+        let (weight, pdf) =
+            self.weight_pdf(upright(wo, side), upright(wi, side), self.eta_from(wo)).unwrap_or_default();
+        (Spectrum::ONE * (weight * pdf), pdf)
+    }
+
+    /// eval / pdf and pdf, for `wo` above the surface, of a rough one; none if no light goes that way.
+    #[inline]
+    fn weight_pdf(&self, wo: Vec3, wi: Vec3, eta: f32) -> Option<(f32, f32)> {
+        if wo.z <= 0.0 || wi.z == 0.0 {
+            return None;
+        }
+        let reflected = wi.z > 0.0;
+        let facet = self.ggx.facet(wo, wi, if reflected { 1.0 } else { eta })?;
+        let reflectance = Fresnel::dielectric(facet.cos.min(1.0), eta).reflectance;
+        let (weight, chance) = if reflected {
+            (self.ggx.g2_over_g1(wo, wi), reflectance)
+        } else {
+            (self.ggx.g1(wi) / (eta * eta), 1.0 - reflectance)
+        };
+        (chance > 0.0).then_some((weight, chance * facet.pdf))
     }
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::testing::chi2_counts;
+    use crate::material::Bsdf;
+    use crate::testing::{Reciprocal, check_lobe, chi2_counts};
+
+    fn glass(eta: f32, roughness: f32) -> DielectricBsdf {
+        Dielectric { eta, roughness }.bsdf()
+    }
 
     fn direction(degrees: f32) -> Vec3 {
         let (sin, cos) = degrees.to_radians().sin_cos();
@@ -114,14 +177,15 @@ mod tests {
                 let mut counts = [0_u64; 2];
                 for i in 0..N {
                     let mut numbers = crate::sampler::Independent::new(3, glam::UVec2::ZERO, i);
-                    let sample = glass.sample(wo, numbers.get_1d()).unwrap();
+                    let sample = glass.sample(wo, numbers.get_1d(), Vec2::ZERO).unwrap();
                     let reflected = sample.wi.z * wo.z > 0.0;
                     counts[usize::from(!reflected)] += 1;
                     assert!((sample.wi.length() - 1.0).abs() < 1e-5 && sample.delta);
                     if reflected {
-                        assert_eq!(sample.wi, reflect(wo));
+                        assert_eq!((sample.wi, sample.eta), (reflect(wo), 1.0));
                     } else {
                         assert!((eta * sample.wi.x + wo.x).abs() < 1e-5, "Snell at {degrees} degrees");
+                        assert_eq!(sample.eta, eta);
                     }
                 }
                 if reflectance == 1.0 {
@@ -133,16 +197,92 @@ mod tests {
         }
     }
 
-    /// Known values: 4 % at normal incidence on glass; 0 for the parallel half at Brewster's angle; total at the end.
     #[test]
-    fn fresnel_values() {
-        assert!((Fresnel::dielectric(1.0, 1.5).reflectance - 0.04).abs() < 1e-6);
-        assert!((Fresnel::dielectric(1.0, 1.0 / 1.5).reflectance - 0.04).abs() < 1e-6);
-        let brewster = 1.5_f32.atan();
-        let r = Fresnel::dielectric(brewster.cos(), 1.5).reflectance;
-        let perpendicular = (2.0 * brewster).cos().powi(2);
-        assert!((r - 0.5 * perpendicular).abs() < 1e-6);
-        assert!((Fresnel::dielectric(0.0, 1.5).reflectance - 1.0).abs() < 1e-6);
-        assert_eq!(Fresnel::dielectric(0.7, 1.0 / 1.5).reflectance, 1.0);
+    fn lobe() {
+        for (eta, roughness) in [(1.5, 0.05), (1.5, 0.3), (1.5, 1.0), (0.4, 0.2), (1.05, 0.6)] {
+            check_lobe(&Bsdf::Dielectric(glass(eta, roughness)), Reciprocal::Yes).unwrap();
+        }
+    }
+
+    /// Shares of energy that are reflected and that go through.
+    fn energy(glass: DielectricBsdf, wo: Vec3) -> [f64; 2] {
+        const N: u32 = 20_000;
+        let mut shares = [0.0; 2];
+        for i in 0..N {
+            let mut numbers = crate::sampler::Independent::new(4, glam::UVec2::ZERO, i);
+            if let Some(s) = glass.sample(wo, numbers.get_1d(), numbers.get_2d()) {
+                let share = s.weight.to_rgb()[0] * s.eta * s.eta;
+                shares[usize::from(s.wi.z * wo.z < 0.0)] += f64::from(share) / f64::from(N);
+            }
+        }
+        shares
+    }
+
+    /// The smoother, the nearer to Fresnel's shares, and the less is lost; never is any won.
+    #[test]
+    fn energy_is_kept_or_lost() {
+        for (degrees, side) in [0.0, 35.0, 60.0, 80.0].into_iter().flat_map(|d| [(d, 1.0), (d, -1.0)]) {
+            let wo = direction(degrees) * Vec3::new(1.0, 1.0, side);
+            let eta = if side > 0.0 { 1.5 } else { 1.0 / 1.5 };
+            let reflectance = f64::from(Fresnel::dielectric(wo.z.abs(), eta).reflectance);
+            let [reflected, refracted] = energy(glass(1.5, 0.05), wo);
+            assert!((reflected - reflectance).abs() < 0.015, "{reflected} reflected at {degrees} degrees");
+            assert!((reflected + refracted - 1.0).abs() < 2e-3, "{reflected} + {refracted} at {degrees} degrees");
+            for roughness in [0.3, 0.6, 1.0] {
+                let sum: f64 = energy(glass(1.5, roughness), wo).iter().sum();
+                assert!(sum > 0.35 && sum <= 1.0 + 1e-6, "{sum} at {degrees} degrees, roughness {roughness}");
+            }
+        }
+    }
+
+    /// Reflection is reciprocal; refraction is once radiance is divided by the index squared.
+    #[test]
+    fn light_can_be_sent_either_way() {
+        let (glass, wo, above) = (glass(1.5, 0.6), direction(30.0), direction(-50.0));
+        let f = |wo: Vec3, wi: Vec3| glass.eval_pdf(wo, wi).0.to_rgb()[0] / wi.z.abs();
+        assert!((f(wo, above) - f(above, wo)).abs() < 1e-6 && f(wo, above) > 0.01);
+        let below = Vec3::new(-0.3, 0.1, -0.9).normalize();
+        assert!((f(wo, below) * 1.5 * 1.5 - f(below, wo)).abs() < 1e-5 && f(wo, below) > 0.1);
+    }
+
+    /// Where there is no boundary, all goes straight on, however rough.
+    #[test]
+    fn nothing_happens_at_index_1() {
+        for (roughness, uc) in [(0.0, 0.0), (0.3, 0.5), (1.0, 0.99)] {
+            for wo in [direction(0.0), direction(50.0), -direction(80.0)] {
+                let sample = glass(1.0, roughness).sample(wo, uc, Vec2::new(0.2, 0.8)).unwrap();
+                assert!(sample.delta && (sample.wi + wo).length() < 1e-6 && sample.weight == Spectrum::ONE);
+            }
+        }
+    }
+
+    /// Finite up to the horizon and for extreme indices.
+    #[test]
+    fn grazing_light_is_finite() {
+        for eta in [0.01_f32, 0.67, 0.999, 1.0, 1.001, 1.5, 100.0] {
+            for roughness in [0.0, 0.04, 0.3, 1.0] {
+                let glass = glass(eta, roughness);
+                for z in [0.0_f32, -0.0, 1e-42, 1e-30, -1e-20, -1e-10, 1e-5, 0.9] {
+                    let wo = Vec3::new((1.0 - z * z).sqrt(), 0.0, z);
+                    for (uc, u) in [
+                        (0.0, Vec2::ZERO),
+                        (0.999_999, Vec2::new(0.3, 1.0 - f32::EPSILON / 2.0)),
+                        (0.9, Vec2::splat(0.4)),
+                    ] {
+                        if let Some(s) = glass.sample(wo, uc, u) {
+                            let energy = s.weight.to_rgb()[0] * s.eta * s.eta;
+                            assert!((0.0..=1.0 + 1e-5).contains(&energy) && s.wi.is_normalized(), "{s:?}");
+                            assert!(s.pdf.is_finite() && s.pdf > 0.0, "{s:?}");
+                        }
+                    }
+                    for wi in [Vec3::new(-wo.x, 0.0, z), wo, -wo, Vec3::Z, Vec3::X, Vec3::new(-1.0, 0.0, -1e-25)] {
+                        let (eval, pdf) = glass.eval_pdf(wo, wi);
+                        assert!(
+                            eval.to_rgb()[0].is_finite() && eval.to_rgb()[0] >= 0.0 && pdf.is_finite() && pdf >= 0.0
+                        );
+                    }
+                }
+            }
+        }
     }
 }

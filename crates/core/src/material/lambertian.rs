@@ -58,15 +58,13 @@ impl LambertianBsdf {
             return None;
         }
         wi.z = wi.z.copysign(wo.z);
-        Some(BsdfSample { wi, weight: self.albedo, pdf: wi.z.abs() * FRAC_1_PI, delta: false })
+        Some(BsdfSample { wi, weight: self.albedo, pdf: wi.z.abs() * FRAC_1_PI, delta: false, eta: 1.0 })
     }
 
-    pub(crate) fn eval(&self, wo: Vec3, wi: Vec3) -> Spectrum {
-        self.albedo * self.pdf(wo, wi)
-    }
-
-    pub(crate) fn pdf(&self, wo: Vec3, wi: Vec3) -> f32 {
-        if wo.z * wi.z > 0.0 { wi.z.abs() * FRAC_1_PI } else { 0.0 }
+    #[inline]
+    pub(crate) fn eval_pdf(&self, wo: Vec3, wi: Vec3) -> (Spectrum, f32) {
+        let pdf = if wo.z * wi.z > 0.0 { wi.z.abs() * FRAC_1_PI } else { 0.0 };
+        (self.albedo * pdf, pdf)
     }
 }
 

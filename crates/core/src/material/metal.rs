@@ -71,28 +71,36 @@ impl MetalBsdf {
     const MIN_ROUGHNESS: f32 = 1e-4;
 
     #[inline]
+    pub(crate) fn is_delta(&self) -> bool {
+        self.roughness < Self::MIN_ROUGHNESS
+    }
+
+    #[inline]
     pub(crate) fn sample(&self, wo: Vec3, uc: f32, u: Vec2) -> Option<BsdfSample> {
         let mirror = reflect(wo);
-        if self.roughness < Self::MIN_ROUGHNESS {
-            return Some(BsdfSample { wi: mirror, weight: self.albedo, pdf: 1.0, delta: true });
+        if self.is_delta() {
+            return Some(BsdfSample { wi: mirror, weight: self.albedo, pdf: 1.0, delta: true, eta: 1.0 });
         }
         let wi = (mirror + self.roughness * uniform_ball(uc, u)).try_normalize()?;
         if wi.z * wo.z <= 0.0 {
             return None;
         }
-        Some(BsdfSample { wi, weight: self.albedo, pdf: self.pdf(wo, wi), delta: false })
+        Some(BsdfSample { wi, weight: self.albedo, pdf: self.pdf(wo, wi), delta: false, eta: 1.0 })
     }
 
-    pub(crate) fn eval(&self, wo: Vec3, wi: Vec3) -> Spectrum {
-        if wi.z * wo.z > 0.0 { self.albedo * self.pdf(wo, wi) } else { Spectrum::BLACK }
+    #[inline]
+    pub(crate) fn eval_pdf(&self, wo: Vec3, wi: Vec3) -> (Spectrum, f32) {
+        let pdf = self.pdf(wo, wi);
+        (if wi.z * wo.z > 0.0 { self.albedo * pdf } else { Spectrum::BLACK }, pdf)
     }
 
     /// Over the whole sphere: directions below the surface have a density too, that of being absorbed.
-    pub(crate) fn pdf(&self, wo: Vec3, wi: Vec3) -> f32 {
-        let r = self.roughness;
-        if r < Self::MIN_ROUGHNESS {
+    #[inline]
+    fn pdf(&self, wo: Vec3, wi: Vec3) -> f32 {
+        if self.is_delta() {
             return 0.0;
         }
+        let r = self.roughness;
         let mirror = reflect(wo);
         let cos = mirror.dot(wi);
         let half_chord_sq = r * r - mirror.cross(wi).length_squared();

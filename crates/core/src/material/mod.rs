@@ -4,10 +4,13 @@
 //! `sample`, `eval`, `pdf`. Directions are unit vectors in the surface's local frame (normal = +z) that point away
 //! from the surface: `wo` to where light is going, `wi` to where it comes from.
 
+mod conductor;
 mod dielectric;
 mod emissive;
+mod fresnel;
 mod lambertian;
 mod metal;
+mod microfacet;
 
 use glam::{Vec2, Vec3};
 use schemars::JsonSchema;
@@ -16,10 +19,13 @@ use serde::{Deserialize, Serialize};
 use crate::color::Spectrum;
 use crate::validate::Checker;
 
-pub use dielectric::{Dielectric, DielectricBsdf, Fresnel};
+pub use conductor::{Conductor, ConductorBsdf};
+pub use dielectric::{Dielectric, DielectricBsdf};
 pub use emissive::Emissive;
+pub use fresnel::{Fresnel, fresnel_conductor};
 pub use lambertian::{Lambertian, LambertianBsdf};
 pub use metal::{Metal, MetalBsdf};
+pub use microfacet::{Facet, Ggx};
 
 /// A material as a scene states it: `[material.NAME.KIND]`.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
@@ -29,7 +35,9 @@ pub enum MaterialDesc {
     Lambertian(Lambertian),
     /// Mirror to rough metal.
     Metal(Metal),
-    /// Smooth glass, water, diamond.
+    /// Polished to rough metal, of facets.
+    Conductor(Conductor),
+    /// Glass, water, diamond, smooth or frosted.
     Dielectric(Dielectric),
     /// A lamp.
     Emissive(Emissive),
@@ -47,6 +55,7 @@ impl MaterialDesc {
         match self {
             Self::Lambertian(m) => c.within("lambertian", |c| m.check(c)),
             Self::Metal(m) => c.within("metal", |c| m.check(c)),
+            Self::Conductor(m) => c.within("conductor", |c| m.check(c)),
             Self::Dielectric(m) => c.within("dielectric", |c| m.check(c)),
             Self::Emissive(m) => c.within("emissive", |c| m.check(c)),
         }
@@ -58,6 +67,7 @@ impl MaterialDesc {
         match self {
             Self::Lambertian(m) => Bsdf::Lambertian(m.bsdf()),
             Self::Metal(m) => Bsdf::Metal(m.bsdf()),
+            Self::Conductor(m) => Bsdf::Conductor(m.bsdf()),
             Self::Dielectric(m) => Bsdf::Dielectric(m.bsdf()),
             Self::Emissive(m) => Bsdf::Lambertian(m.bsdf()),
         }
@@ -80,6 +90,8 @@ pub enum Bsdf {
     Lambertian(LambertianBsdf),
     /// See [`Metal`].
     Metal(MetalBsdf),
+    /// See [`Conductor`].
+    Conductor(ConductorBsdf),
     /// See [`Dielectric`].
     Dielectric(DielectricBsdf),
 }
@@ -95,6 +107,9 @@ pub struct BsdfSample {
     pub pdf: f32,
     /// Whether `wi` is one of finitely many directions, which [`Bsdf::pdf`] knows nothing of.
     pub delta: bool,
+    /// By what the index of refraction changes along the path: that on the side of `wi` over that on the side of `wo`; 1 for
+    /// reflection. `weight` eta² is a share of energy, at most 1.
+    pub eta: f32,
 }
 
 impl Bsdf {
@@ -104,25 +119,42 @@ impl Bsdf {
         match self {
             Self::Lambertian(b) => b.sample(wo, u),
             Self::Metal(b) => b.sample(wo, uc, u),
-            Self::Dielectric(b) => b.sample(wo, uc),
+            Self::Conductor(b) => b.sample(wo, u),
+            Self::Dielectric(b) => b.sample(wo, uc, u),
+        }
+    }
+
+    /// [`eval`](Self::eval) and [`pdf`](Self::pdf) at once.
+    #[inline]
+    pub fn eval_pdf(&self, wo: Vec3, wi: Vec3) -> (Spectrum, f32) {
+        match self {
+            Self::Lambertian(b) => b.eval_pdf(wo, wi),
+            Self::Metal(b) => b.eval_pdf(wo, wi),
+            Self::Conductor(b) => b.eval_pdf(wo, wi),
+            Self::Dielectric(b) => b.eval_pdf(wo, wi),
         }
     }
 
     /// The BSDF times |cos θ| of `wi`; 0 for delta lobes.
+    #[inline]
     pub fn eval(&self, wo: Vec3, wi: Vec3) -> Spectrum {
-        match self {
-            Self::Lambertian(b) => b.eval(wo, wi),
-            Self::Metal(b) => b.eval(wo, wi),
-            Self::Dielectric(_) => Spectrum::BLACK,
-        }
+        self.eval_pdf(wo, wi).0
     }
 
     /// The density per solid angle with which [`sample`](Self::sample) draws `wi`; 0 for delta lobes.
+    #[inline]
     pub fn pdf(&self, wo: Vec3, wi: Vec3) -> f32 {
+        self.eval_pdf(wo, wi).1
+    }
+
+    /// Whether all samples are delta, so that `eval` and `pdf` are 0 everywhere.
+    #[inline]
+    pub fn is_delta(&self) -> bool {
         match self {
-            Self::Lambertian(b) => b.pdf(wo, wi),
-            Self::Metal(b) => b.pdf(wo, wi),
-            Self::Dielectric(_) => 0.0,
+            Self::Lambertian(_) => false,
+            Self::Metal(b) => b.is_delta(),
+            Self::Conductor(b) => b.is_delta(),
+            Self::Dielectric(b) => b.is_delta(),
         }
     }
 }

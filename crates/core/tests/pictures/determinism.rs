@@ -20,7 +20,8 @@ fn medley() -> SceneDesc {
     desc.camera.aperture = Some(0.1);
     let metal = Metal { albedo: Rgb([0.9, 0.7, 0.4]), roughness: 0.2 };
     desc.material.insert("metal".to_owned(), MaterialDesc::Metal(metal));
-    desc.material.insert("glass".to_owned(), MaterialDesc::Dielectric(Dielectric { eta: 1.5 }));
+    desc.material
+        .insert("glass".to_owned(), MaterialDesc::Dielectric(Dielectric { eta: 1.5, ..Dielectric::default() }));
     desc.material.insert("lamp".to_owned(), lamp(5.0));
     for (i, name) in ["it", "metal", "glass", "lamp"].into_iter().enumerate() {
         desc.shape.sphere.push(sphere([i as f32 - 1.5, 0.45, 0.0], 0.45));

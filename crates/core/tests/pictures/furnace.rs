@@ -22,11 +22,11 @@ fn white_balls_vanish() {
 #[test]
 fn glass_vanishes() {
     for eta in [1.0, 1.33, 1.5, 2.42, 0.8] {
-        let glass = MaterialDesc::Dielectric(Dielectric { eta });
+        let glass = MaterialDesc::Dielectric(Dielectric { eta, ..Dielectric::default() });
         let mut desc = scene(WHITE, glass, look([0.0, 0.0, 3.0], [0.0; 3], 50.0));
         desc.shape.sphere.push(sphere([0.0; 3], 1.0));
         assert_every_way(&desc, &settings(32, 64, 10_000), 1.0, 1e-6, "ball");
-        let inside = MaterialDesc::Dielectric(Dielectric { eta: 1.0 / eta });
+        let inside = MaterialDesc::Dielectric(Dielectric { eta: 1.0 / eta, ..Dielectric::default() });
         desc.material.insert("inside".to_owned(), inside);
         let mut bubble = sphere([0.0; 3], 0.9);
         bubble.material = Some("inside".to_owned());
@@ -39,7 +39,7 @@ fn glass_vanishes() {
 #[test]
 fn glass_is_brighter_inside() {
     for eta in [1.33_f32, 1.5, 2.42] {
-        let glass = MaterialDesc::Dielectric(Dielectric { eta });
+        let glass = MaterialDesc::Dielectric(Dielectric { eta, ..Dielectric::default() });
         let mut desc = scene(WHITE, glass, look([0.1, 0.0, 0.0], [0.0, 0.0, -1.0], 90.0));
         desc.shape.sphere.push(sphere([0.0; 3], 1.0));
         assert_every_way(&desc, &settings(16, 16, 1000), eta * eta, 1e-6, "inside");
