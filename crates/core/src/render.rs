@@ -9,7 +9,7 @@ use std::sync::atomic::{AtomicBool, AtomicU64, Ordering::Relaxed};
 use std::sync::{Mutex, PoisonError};
 use std::thread;
 
-use crate::camera::ThinLens;
+use crate::camera::Camera;
 use crate::desc::RenderDesc;
 use crate::film::Film;
 use crate::integrator::{Integrator, IntegratorKind, Unit};
@@ -57,7 +57,7 @@ pub struct Monitor {
 pub struct Render<'s> {
     scene: &'s Scene,
     settings: Settings,
-    camera: ThinLens,
+    camera: Camera,
     integrator: Box<dyn Integrator>,
     film: Film,
     /// Units before this one are done; those of a pass come tile by tile.

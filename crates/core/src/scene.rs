@@ -6,7 +6,7 @@ pub use eyebeam_bvh::{Bvh, Ray};
 
 use eyebeam_bvh::{BuildError, Quality};
 
-use crate::camera::{CameraDesc, ThinLens};
+use crate::camera::{Camera, CameraDesc};
 use crate::desc::SceneDesc;
 use crate::interaction::SurfaceInteraction;
 use crate::light::EnvironmentDesc;
@@ -100,8 +100,8 @@ impl Scene {
     }
 
     /// The camera for a picture of this size.
-    pub fn camera(&self, width: u32, height: u32) -> ThinLens {
-        ThinLens::new(&self.camera, width, height)
+    pub fn camera(&self, width: u32, height: u32) -> Camera {
+        Camera::new(&self.camera, width, height)
     }
 
     /// The number of primitives.

@@ -8,7 +8,7 @@ use glam::{UVec2, Vec2};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
-use crate::camera::ThinLens;
+use crate::camera::Camera;
 use crate::color::Spectrum;
 use crate::film::Tile;
 use crate::sampler::{Independent, Sampler};
@@ -47,7 +47,7 @@ pub trait Integrator: Sync {
 #[derive(Clone, Debug)]
 pub struct Unit<'a> {
     /// The camera.
-    pub camera: &'a ThinLens,
+    pub camera: &'a Camera,
     /// See [`Settings::seed`](crate::render::Settings::seed).
     pub seed: u64,
     /// Which samples of each pixel.

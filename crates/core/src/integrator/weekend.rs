@@ -26,7 +26,7 @@ impl Integrator for Weekend {
         let mut rays = 0;
         unit.for_each_sample(tile, |film, sampler| {
             let ray = unit.camera.ray(film, sampler);
-            self.ray_color(scene, ray, sampler, &mut rays)
+            ray.map_or(Spectrum::BLACK, |ray| self.ray_color(scene, ray, sampler, &mut rays))
         });
         rays
     }
