@@ -27,7 +27,7 @@ fn camera_rays(c: &mut Criterion) {
             let mut sampler = Sampler::Independent(Independent::new(0, pixel, 0));
             camera.ray(pixel.as_vec2() + 0.5, &mut sampler)
         };
-        let rays: Vec<_> = pixels.map(ray).collect();
+        let rays: Vec<_> = pixels.filter_map(ray).collect();
         group.throughput(Throughput::Elements(rays.len() as u64));
         group.bench_function(name, |b| {
             b.iter(|| rays.iter().filter(|ray| scene.intersect(black_box(ray)).is_some()).count());

@@ -14,6 +14,7 @@
 use std::cell::Cell;
 use std::sync::Arc;
 
+use eyebeam_core::camera::CameraDesc;
 use eyebeam_core::desc::{RenderDesc, SceneDesc};
 use eyebeam_core::light::EnvironmentDesc;
 use eyebeam_core::material::MaterialDesc;
@@ -225,7 +226,7 @@ impl Camera {
         let (look_from, look_at) = (Vec3::from(camera.look_from), Vec3::from(camera.look_at));
         let focus_distance = camera.focus_distance.map_or_else(|| (look_from - look_at).length(), f64::from);
         let half_tan = |degrees: f32| (0.5 * f64::from(degrees).to_radians()).tan();
-        let viewport_height = 2.0 * half_tan(camera.vfov);
+        let viewport_height = 2.0 * half_tan(camera.vfov.unwrap_or(CameraDesc::DEFAULT_VFOV));
         let viewport_width = viewport_height * f64::from(desc.render.width) / f64::from(desc.render.height);
         let w = (look_from - look_at).unit();
         let u = Vec3::from(camera.up).cross(w).unit();

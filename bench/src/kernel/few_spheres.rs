@@ -77,7 +77,7 @@ pub(crate) fn record(desc: &SceneDesc, width: u32) -> Result<Vec<Ray>, String> {
     for pixel in (0..height).flat_map(|y| (0..width).map(move |x| UVec2::new(x, y))) {
         let mut sampler = Sampler::Independent(Independent::new(0, pixel, 0));
         let film = pixel.as_vec2() + sampler.get_2d();
-        let mut next = Some(camera.ray(film, &mut sampler));
+        let mut next = camera.ray(film, &mut sampler);
         for _ in 0..desc.render.max_depth {
             let Some(ray) = next else { break };
             rays.push(ray);

@@ -14,153 +14,74 @@
 
 use eyebeam_bvh::Ray;
 use glam::{Vec2, Vec3};
-use schemars::JsonSchema;
-use serde::{Deserialize, Serialize};
 
-use crate::array::array;
+use crate::camera::aperture::Aperture;
+use crate::camera::pose::Pose;
+use crate::camera::{CameraDesc, half_size};
 use crate::sampler::Sampler;
-use crate::sampling::uniform_disk;
-use crate::validate::Checker;
 
-/// Where the eye is, where it looks, and its lens.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
-#[serde(deny_unknown_fields, default)]
-pub struct CameraDesc {
-    /// The eye, metres.
-    #[serde(deserialize_with = "array")]
-    pub look_from: [f32; 3],
-    /// A point in the middle of the picture, metres.
-    #[serde(deserialize_with = "array")]
-    pub look_at: [f32; 3],
-    /// What is upwards in the picture.
-    #[serde(deserialize_with = "array")]
-    pub up: [f32; 3],
-    /// Vertical field of view, degrees, 0..180.
-    #[schemars(range(min = 0.001, max = 179.0))]
-    pub vfov: f32,
-    /// Diameter of the lens, metres; 0 is a pinhole, with which everything is sharp.
-    #[schemars(range(min = 0.0))]
-    pub aperture: Option<f32>,
-    /// The lens as the angle of the cone of rays that meet in a point in focus, degrees; instead of `aperture`.
-    #[schemars(range(min = 0.0, max = 179.0))]
-    pub defocus_angle: Option<f32>,
-    /// Distance from the eye to the plane in focus, metres; that of `look_at` if absent.
-    pub focus_distance: Option<f32>,
-}
-
-impl Default for CameraDesc {
-    fn default() -> Self {
-        Self {
-            look_from: [0.0, 1.0, 6.0],
-            look_at: [0.0, 0.0, 0.0],
-            up: [0.0, 1.0, 0.0],
-            vfov: 40.0,
-            aperture: None,
-            defocus_angle: None,
-            focus_distance: None,
-        }
-    }
-}
-
-impl CameraDesc {
-    pub(crate) fn check(&self, c: &mut Checker) {
-        c.finite("look_from", &self.look_from);
-        c.finite("look_at", &self.look_at);
-        c.nonzero("up", self.up);
-        c.in_range("vfov", self.vfov, 0.001, 179.0);
-        let (from, at, up) = (Vec3::from(self.look_from), Vec3::from(self.look_at), Vec3::from(self.up));
-        if from == at {
-            c.problem(
-                "look_at",
-                "`look_from` and `look_at` are the same point, so the camera looks nowhere",
-                Some("move one of them".to_owned()),
-            );
-        } else if from.is_finite()
-            && at.is_finite()
-            && up != Vec3::ZERO
-            && (at - from).normalize_or_zero().cross(up.normalize_or_zero()).length() < 1e-6
-        {
-            c.problem("up", "`up` points along the line of sight", Some("try up = [0, 0, 1]".to_owned()));
-        }
-        if let Some(aperture) = self.aperture.filter(|&a| a != 0.0) {
-            c.positive("aperture", aperture);
-        }
-        if let Some(angle) = self.defocus_angle {
-            c.in_range("defocus_angle", angle, 0.0, 179.0);
-        }
-        if self.aperture.is_some() && self.defocus_angle.is_some() {
-            c.problem(
-                "defocus_angle",
-                "`aperture` and `defocus_angle` both say how wide the lens is",
-                Some("keep one of them".to_owned()),
-            );
-        }
-        if let Some(distance) = self.focus_distance {
-            c.positive("focus_distance", distance);
-        }
-    }
-}
-
-/// A camera ready to make rays for a picture of a given size.
-#[derive(Clone, Debug)]
+/// A perspective camera ready to make rays for a picture of a given size.
+#[derive(Clone, Copy, Debug)]
 pub struct ThinLens {
-    eye: Vec3,
-    /// From the eye to the top left corner of the picture on the plane of focus.
-    top_left: Vec3,
-    /// From a pixel to its neighbour on the right and below, on the plane of focus.
-    pixel_x: Vec3,
-    pixel_y: Vec3,
-    /// Half axes of the lens; zero for a pinhole.
-    lens_x: Vec3,
-    lens_y: Vec3,
+    pose: Pose,
+    /// The middle of the picture, pixels.
+    center: Vec2,
+    /// A pixel's side on the plane at distance 1.
+    pixel: f32,
+    /// Distance of the plane of focus, metres.
+    focus: f32,
+    /// Half axes of the lens in focus distances; zero for a pinhole.
+    lens: Vec2,
+    aperture: Aperture,
 }
 
 impl ThinLens {
-    /// The camera for `width` × `height` pixels; they are square.
-    pub fn new(desc: &CameraDesc, width: u32, height: u32) -> Self {
-        let (eye, at) = (Vec3::from(desc.look_from), Vec3::from(desc.look_at));
-        let forward = (at - eye).normalize();
-        let right = forward.cross(Vec3::from(desc.up).normalize()).normalize();
-        let down = forward.cross(right);
-        let focus = desc.focus_distance.unwrap_or_else(|| at.distance(eye));
+    pub(super) fn new(desc: &CameraDesc, width: u32, height: u32) -> Self {
+        let focus = desc.focus();
         let half_tan = |degrees: f32| libm::tanf(0.5 * degrees.to_radians());
-        let pixel = 2.0 * focus * half_tan(desc.vfov) / height as f32;
-        let radius = desc.defocus_angle.map_or(0.5 * desc.aperture.unwrap_or(0.0), |angle| focus * half_tan(angle));
+        let radius = desc.defocus_angle.map_or(0.5 * desc.aperture.unwrap_or(0.0) / focus, half_tan);
+        let bokeh = desc.bokeh.clone().unwrap_or_default();
         Self {
-            eye,
-            top_left: focus * forward - 0.5 * pixel * (width as f32 * right + height as f32 * down),
-            pixel_x: pixel * right,
-            pixel_y: pixel * down,
-            lens_x: radius * right,
-            lens_y: radius * down,
+            pose: Pose::new(desc),
+            center: half_size(width, height),
+            pixel: 2.0 * half_tan(desc.vfov.unwrap_or(CameraDesc::DEFAULT_VFOV)) / height as f32,
+            focus,
+            lens: radius * Vec2::new(1.0 / bokeh.ratio, 1.0),
+            aperture: Aperture::new(&bokeh),
         }
     }
 
-    /// The ray through a point of the film, in pixels from the top left corner.
+    pub(super) fn pose(&self) -> &Pose {
+        &self.pose
+    }
+
     #[inline]
-    pub fn ray(&self, film: Vec2, sampler: &mut Sampler) -> Ray {
-        let target = self.top_left + film.x * self.pixel_x + film.y * self.pixel_y;
-        if self.lens_x == Vec3::ZERO {
-            return Ray::new(self.eye, target.normalize());
+    pub(super) fn ray(&self, film: Vec2, sampler: &mut Sampler) -> Ray {
+        let target = (self.pixel * (film - self.center)).extend(1.0);
+        if self.lens == Vec2::ZERO {
+            return Ray::new(self.pose.eye, self.pose.to_world(target).normalize());
         }
-        let lens = uniform_disk(sampler.get_2d());
-        let start = lens.x * self.lens_x + lens.y * self.lens_y;
-        Ray::new(self.eye + start, (target - start).normalize())
+        let start = (self.lens * self.aperture.sample(sampler.get_2d())).extend(0.0);
+        let o = self.pose.eye + self.focus * self.pose.to_world(start);
+        Ray::new(o, self.pose.to_world(target - start).normalize())
+    }
+
+    /// Where the pinhole shows a local point.
+    pub(super) fn project(&self, p: Vec3) -> Option<Vec2> {
+        (p.z > 0.0).then(|| p.truncate() / p.z / self.pixel + self.center)
     }
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::sampler::Independent;
-
-    fn sampler(i: u32) -> Sampler {
-        Sampler::Independent(Independent::new(0, glam::UVec2::ZERO, i))
-    }
+    use crate::camera::BokehDesc;
+    use crate::camera::tests::sampler;
 
     #[test]
     fn looks_where_it_is_told() {
-        let desc = CameraDesc { look_from: [0.0, 0.0, 5.0], look_at: [0.0; 3], vfov: 90.0, ..CameraDesc::default() };
+        let desc =
+            CameraDesc { look_from: [0.0, 0.0, 5.0], look_at: [0.0; 3], vfov: Some(90.0), ..CameraDesc::default() };
         let camera = ThinLens::new(&desc, 200, 100);
         let ray = |x, y| camera.ray(Vec2::new(x, y), &mut sampler(0)).d;
         assert!((ray(100.0, 50.0) - Vec3::NEG_Z).length() < 1e-6);
@@ -168,27 +89,73 @@ mod tests {
         assert!((ray(200.0, 50.0) - Vec3::new(2.0, 0.0, -1.0).normalize()).length() < 1e-6, "twice as wide as high");
     }
 
-    /// Whatever the point on the lens, rays of one film point meet on the plane of focus, and starts fill the lens.
-    #[test]
-    fn rays_meet_in_focus() {
+    fn lens(blades: u32, ratio: f32) -> ThinLens {
         let desc = CameraDesc {
             look_from: [0.0; 3],
             look_at: [0.0, 0.0, -1.0],
             aperture: Some(0.5),
             focus_distance: Some(4.0),
+            bokeh: Some(BokehDesc { blades, ratio, rotation: 10.0 }),
             ..CameraDesc::default()
         };
-        let camera = ThinLens::new(&desc, 100, 100);
-        let mut widest = 0.0_f32;
-        let meet = |i| {
-            let ray = camera.ray(Vec2::new(20.0, 70.0), &mut sampler(i));
-            (ray.o, ray.o + ray.d * (-4.0 - ray.o.z) / ray.d.z)
-        };
-        for i in 0..1000 {
-            let (start, p) = meet(i);
-            assert!((p - meet(0).1).length() < 1e-5);
-            widest = widest.max(start.length());
+        ThinLens::new(&desc, 100, 100)
+    }
+
+    /// Whatever the point on the lens, rays of one film point meet on the plane of focus, and starts fill the lens.
+    #[test]
+    fn rays_meet_in_focus() {
+        for (blades, ratio, width, height) in [(0, 1.0, 0.25, 0.25), (12, 1.0, 0.25, 0.25), (0, 2.0, 0.125, 0.25)] {
+            let camera = lens(blades, ratio);
+            let meet = |i| {
+                let ray = camera.ray(Vec2::new(20.0, 70.0), &mut sampler(i));
+                (ray.o, ray.o + ray.d * (-4.0 - ray.o.z) / ray.d.z)
+            };
+            let mut widest = Vec3::ZERO;
+            for i in 0..2000 {
+                let (start, p) = meet(i);
+                assert!((p - meet(0).1).length() < 1e-5);
+                widest = widest.max(start.abs());
+            }
+            let share = widest / Vec3::new(width, height, 1.0);
+            assert!(share.x > 0.94 && share.x < 1.0001 && share.y > 0.94 && share.y < 1.0001, "{blades}: {widest}");
         }
-        assert!(widest > 0.24 && widest <= 0.2501);
+    }
+
+    /// The triangle's corner points to the left in what lies behind the plane in focus, to the right before it.
+    #[test]
+    fn bokeh_is_upright_in_the_background() {
+        const P: Vec3 = Vec3::new(0.0, 0.0, -4.0);
+        // How far to the left and to the right of the middle a ray of the film meets a point at distance 4.
+        let extent = |focus: f32| {
+            let desc = CameraDesc {
+                look_from: [0.0; 3],
+                look_at: [0.0, 0.0, -1.0],
+                aperture: Some(0.5),
+                focus_distance: Some(focus),
+                bokeh: Some(BokehDesc { blades: 3, ..BokehDesc::default() }),
+                ..CameraDesc::default()
+            };
+            let camera = ThinLens::new(&desc, 100, 100);
+            let sees = |x: f32| {
+                let meets = |ray: Ray| (ray.o + ray.d * (P.z / ray.d.z)).distance(P) < 0.01;
+                (0..3000).any(|i| meets(camera.ray(Vec2::new(x, 50.0), &mut sampler(i))))
+            };
+            let farthest = |side: f32| (0..30).rev().find(|&i| sees(50.0 + side * 0.5 * i as f32)).unwrap();
+            [farthest(-1.0), farthest(1.0)]
+        };
+        let [left, right] = extent(2.0);
+        assert!(2 * left > 3 * right, "background: {left} {right}");
+        let [left, right] = extent(8.0);
+        assert!(2 * right > 3 * left, "foreground: {left} {right}");
+    }
+
+    /// A pinhole takes no numbers from the sampler, a lens one pair.
+    #[test]
+    fn takes_the_numbers_of_a_lens() {
+        let (mut pinhole, mut wide, mut fresh) = (sampler(3), sampler(3), sampler(3));
+        ThinLens::new(&CameraDesc::default(), 8, 8).ray(Vec2::ONE, &mut pinhole);
+        lens(5, 1.0).ray(Vec2::ONE, &mut wide);
+        assert_eq!(pinhole.get_2d(), fresh.get_2d());
+        assert_eq!(wide.get_2d(), fresh.get_2d());
     }
 }

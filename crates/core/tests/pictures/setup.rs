@@ -80,7 +80,7 @@ pub(crate) fn scene(environment: EnvironmentDesc, it: MaterialDesc, camera: Came
 
 pub(crate) fn look(from: [f32; 3], at: [f32; 3], vfov: f32) -> CameraDesc {
     let up = if from[0] == at[0] && from[2] == at[2] { [0.0, 0.0, 1.0] } else { [0.0, 1.0, 0.0] };
-    CameraDesc { look_from: from, look_at: at, up, vfov, ..CameraDesc::default() }
+    CameraDesc { look_from: from, look_at: at, up, vfov: Some(vfov), ..CameraDesc::default() }
 }
 
 pub(crate) fn matte(albedo: f32) -> MaterialDesc {

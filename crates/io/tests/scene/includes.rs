@@ -39,7 +39,7 @@ fn add_up_and_the_including_file_wins() {
         ("lib/d.toml", "[[shape.sphere]]\nradius = 0.5\nmaterial = \"x\""),
     ]);
     let desc = read(&folder.path().join("a.toml"), &[setting("shape.sphere.0.radius=9")]).unwrap();
-    assert_eq!((desc.camera.vfov, desc.camera.aperture), (30.0, Some(0.5)));
+    assert_eq!((desc.camera.vfov, desc.camera.aperture), (Some(30.0), Some(0.5)));
     assert_eq!(desc.shape.sphere.iter().map(|s| s.radius).collect::<Vec<_>>(), [9.0, 1.0, 2.0, 3.0]);
     assert!(matches!(desc.material["x"], eyebeam_core::material::MaterialDesc::Metal(_)));
 }

@@ -32,7 +32,7 @@ fn are_stronger_than_the_file() {
     // A list that the file does not have cannot be changed in part.
     assert!(desc.is_err());
     let desc = read(&["camera.vfov=20", "camera.vfov=25", "camera.look_at=[0, 2, 0]", "camera.look_at.1=3"]).unwrap();
-    assert_eq!((desc.camera.vfov, desc.camera.look_at), (25.0, [0.0, 3.0, 0.0]));
+    assert_eq!((desc.camera.vfov, desc.camera.look_at), (Some(25.0), [0.0, 3.0, 0.0]));
     let desc = read(&["shape.sphere.1.radius=7", "shape.sphere.0.material=gold"]).unwrap();
     assert_eq!((desc.shape.sphere[0].radius, desc.shape.sphere[1].radius), (1.0, 7.0));
     assert_eq!(desc.shape.sphere[0].material.as_deref(), Some("gold"));

@@ -41,8 +41,10 @@ impl Probe<'_> {
             [Vec2::splat(0.5), Vec2::ZERO, Vec2::new(1.0, 0.0), Vec2::new(0.0, 1.0), Vec2::splat(1.0)];
         let camera = self.scene.camera(self.width, self.height);
         let all = (0..self.height).flat_map(|y| (0..self.width).map(move |x| UVec2::new(x, y)));
-        all.filter(|pixel| PLACES.iter().all(|&place| wanted(camera.ray(pixel.as_vec2() + place, &mut numbers()))))
-            .collect()
+        all.filter(|pixel| {
+            PLACES.iter().all(|&place| camera.ray(pixel.as_vec2() + place, &mut numbers()).is_some_and(&wanted))
+        })
+        .collect()
     }
 
     /// What a ray meets, and the ray that is scattered there.
