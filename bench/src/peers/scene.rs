@@ -84,7 +84,7 @@ pub fn read_scene(path: &Path) -> Result<SceneDesc, Box<dyn Error>> {
             width: scene.width,
             height: scene.height,
             max_depth: scene.max_depth,
-            filter: FilterDesc::Box(BoxFilter {}),
+            filter: FilterDesc::Box(BoxFilter::default()),
             ..RenderDesc::default()
         },
         camera: scene.camera.into(),

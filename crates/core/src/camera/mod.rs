@@ -106,7 +106,7 @@ mod tests {
     use proptest::prelude::*;
     use proptest::test_runner::RngSeed;
 
-    pub(super) fn sampler(i: u32) -> Sampler {
+    pub(super) fn sampler(i: u32) -> Sampler<'static> {
         Sampler::Independent(Independent::new(0, glam::UVec2::ZERO, i))
     }
 

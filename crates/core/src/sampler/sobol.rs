@@ -156,7 +156,7 @@ mod tests {
     fn take(points: &SobolPoints, pixel: UVec2, samples: u32, skip: u32) -> Vec<[f32; 3]> {
         let numbers = |i| {
             let mut sampler = points.sampler(pixel, i);
-            (0..skip).for_each(|_| drop(sampler.get_1d()));
+            (0..skip).for_each(|_| _ = sampler.get_1d());
             let (z, xy) = sampler.get_3d();
             [xy.x, xy.y, z]
         };

@@ -16,7 +16,7 @@ use eyebeam_core::shape::{MeshDesc, QuadDesc, SphereDesc};
 use eyebeam_core::testing::z_test;
 
 pub(crate) const DARK: EnvironmentDesc = EnvironmentDesc::None(NoLight {});
-pub(crate) const BOX: FilterDesc = FilterDesc::Box(BoxFilter {});
+pub(crate) const BOX: FilterDesc = FilterDesc::Box(BoxFilter { radius: 0.5 });
 pub(crate) const WHITE: EnvironmentDesc = EnvironmentDesc::Constant(Constant { radiance: Rgb([1.0; 3]) });
 
 /// A square picture by the plainest means: what theory is about.

@@ -132,7 +132,6 @@ impl Default for FilterDesc {
 }
 
 impl FilterDesc {
-    #[cfg_attr(not(test), expect(dead_code, reason = "scenes do not state filters"))]
     pub(crate) fn check(&self, c: &mut Checker) {
         match self {
             Self::Box(f) => c.within("box", |c| check_radius(f.radius, c)),
