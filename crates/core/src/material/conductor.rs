@@ -147,7 +147,7 @@ impl ConductorBsdf {
             return None;
         }
         let facet = self.ggx.facet(wo, wi, 1.0)?;
-        Some((self.reflectance.at(facet.cos) * self.ggx.g2_over_g1(wo, wi), facet.pdf))
+        Some((self.reflectance.at(facet.cos_o.min(1.0)) * self.ggx.g2_over_g1(wo, wi), facet.pdf))
     }
 }
 

@@ -139,11 +139,10 @@ impl DielectricBsdf {
         }
         let reflected = wi.z > 0.0;
         let facet = self.ggx.facet(wo, wi, if reflected { 1.0 } else { eta })?;
-        let reflectance = Fresnel::dielectric(facet.cos.min(1.0), eta).reflectance;
         let (weight, chance) = if reflected {
-            (self.ggx.g2_over_g1(wo, wi), reflectance)
+            (self.ggx.g2_over_g1(wo, wi), Fresnel::dielectric(facet.cos_o.min(1.0), eta).reflectance)
         } else {
-            (self.ggx.g1(wi) / (eta * eta), 1.0 - reflectance)
+            (self.ggx.g1(wi) / (eta * eta), 1.0 - Fresnel::between(facet.cos_o, facet.cos_i, eta))
         };
         (chance > 0.0).then_some((weight, chance * facet.pdf))
     }

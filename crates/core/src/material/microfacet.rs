@@ -32,8 +32,10 @@ pub struct Ggx {
 /// The facets that send light from one direction to another.
 #[derive(Clone, Copy, Debug)]
 pub struct Facet {
-    /// Cosine of the angle between `wo` and their normal.
-    pub cos: f32,
+    /// Cosine of the angle between `wo` and their normal, above 0.
+    pub cos_o: f32,
+    /// Cosine of the angle between `wi` and their normal, or its other end for refraction, above 0.
+    pub cos_i: f32,
     /// Density of `wi` (1/sr) if visible normals are drawn and all light is sent this way.
     pub pdf: f32,
 }
@@ -114,12 +116,12 @@ impl Ggx {
             return None;
         }
         let m = h * (1.0_f32.copysign(h.z) / length_sq.sqrt());
-        let (cos_o, cos_i) = (wo.dot(m), wi.dot(m));
-        if cos_o <= 0.0 || cos_i * wi.z <= 0.0 {
+        let (cos_o, cos_i) = (wo.dot(m), wi.dot(m) * 1.0_f32.copysign(wi.z));
+        if cos_o <= 0.0 || cos_i <= 0.0 {
             return None;
         }
         let pdf_m = self.d(m) * cos_o / self.area(wo);
-        Some(Facet { cos: cos_o, pdf: pdf_m * (eta * eta * cos_i.abs() / length_sq) })
+        Some(Facet { cos_o, cos_i, pdf: pdf_m * (eta * eta * cos_i / length_sq) })
     }
 }
 
