@@ -10,7 +10,8 @@
 //! σ(w) = (cos θ + s(w)) / 2, with s(w) = √(z² + α² (x² + y²)),
 //!
 //! so G₁ = cos θ / σ = 1 / (1 + Λ). Light that is reflected leaves as high as it came; with heights correlated so,
-//! G₂ = 1 / (1 + Λₒ + Λᵢ). Light that goes through comes out elsewhere, and G₂ = G₁(wo) G₁(wi), as Walter et al. have it.
+//! G₂ = 1 / (1 + Λₒ + Λᵢ). Light that goes through comes out elsewhere, and G₂ = G₁(wo) G₁(wi), as Walter et al. have
+//! it.
 //!
 //! Normals are drawn in proportion to what is seen of them, D(m) (wo · m) / σ(wo), by reflecting at a spherical cap
 //! (Dupuy & Benyoub 2023, doi:10.1111/cgf.14867). What is scattered several times between facets is lost.
@@ -84,7 +85,8 @@ impl Ggx {
         w.z.abs() / self.area(w)
     }
 
-    /// G₂ / G₁(wo) with correlated heights: the share of the facets seen from `wo` that `wi`, on the same side, sees too.
+    /// G₂ / G₁(wo) with correlated heights: the share of the facets seen from `wo` that `wi`, on the same side, sees
+    /// too.
     #[inline]
     pub fn g2_over_g1(self, wo: Vec3, wi: Vec3) -> f32 {
         let s = self.stretch(wo);
@@ -104,8 +106,8 @@ impl Ggx {
         Vec3::new(self.alpha * h.x, self.alpha * h.y, h.z).normalize()
     }
 
-    /// The facets that reflect light from `wi` to `wo` (`eta` = 1, `wi` on the side of `wo`) or refract it (`eta` the index
-    /// behind over before, not 1, `wi` on the other side); none if no facet does.
+    /// The facets that reflect light from `wi` to `wo` (`eta` = 1, `wi` on the side of `wo`) or refract it (`eta` the
+    /// index behind over before, not 1, `wi` on the other side); none if no facet does.
     ///
     /// Their normal is along h = wo + eta wi, and |dm / dwi| = eta² |wi · m| / |h|² (Walter et al. 2007, §4).
     #[inline]
