@@ -8,8 +8,8 @@
 //! Visible normals are drawn, so a sample weighs F G₂ / G₁. Cook & Torrance 1982, doi:10.1145/357290.357293; Walter et
 //! al. 2007, doi:10.2312/EGWR/EGSR07/195-206. The facets' alpha is roughness². Reciprocal, and the same on both sides.
 //!
-//! What is reflected from facet to facet is lost: straight on, 1 % of the light at roughness 0.3, 9 % at 0.5, 18 % at 0.6,
-//! 69 % at 1.
+//! What is reflected from facet to facet is lost: straight on, 1 % of the light at roughness 0.3, 9 % at 0.5, 18 % at
+//! 0.6, 69 % at 1.
 //!
 //! ```toml
 //! [material.gold.conductor]
@@ -41,8 +41,8 @@ pub struct Conductor {
     pub eta: Option<Rgb>,
     /// Imaginary part of the index of refraction in each channel, 0..100; together with `eta`.
     pub k: Option<Rgb>,
-    /// Share of the light that is reflected at any angle, 0..1 in each channel, instead of `eta` and `k`; 0.9 if nothing is
-    /// said.
+    /// Share of the light that is reflected at any angle, 0..1 in each channel, instead of `eta` and `k`; 0.9 if
+    /// nothing is said.
     pub reflectance: Option<Rgb>,
     /// 0 is a mirror, 1 completely rough; alpha is its square. Below 0.022 it is a perfect mirror.
     #[schemars(range(min = 0.0, max = 1.0))]
@@ -147,7 +147,7 @@ impl ConductorBsdf {
             return None;
         }
         let facet = self.ggx.facet(wo, wi, 1.0)?;
-        Some((self.reflectance.at(facet.cos) * self.ggx.g2_over_g1(wo, wi), facet.pdf))
+        Some((self.reflectance.at(facet.cos_o.min(1.0)) * self.ggx.g2_over_g1(wo, wi), facet.pdf))
     }
 }
 
@@ -211,8 +211,8 @@ mod tests {
         }
     }
 
-    /// Straight down on roughness 1: D = 1 / π and wi = 2θ from the axis, so the albedo is an integral over cos θᵢ alone:
-    /// ∫ G₂ / (4 cos θₒ) D 2π d(cos θᵢ) with G₂ = 2 cos / (1 + cos).
+    /// Straight down on roughness 1: D = 1 / π and wi = 2θ from the axis, so the albedo is an integral over cos θᵢ
+    /// alone: ∫ G₂ / (4 cos θₒ) D 2π d(cos θᵢ) with G₂ = 2 cos / (1 + cos).
     #[test]
     fn rough_metal_loses_what_the_integral_says() {
         const N: u32 = 1000;

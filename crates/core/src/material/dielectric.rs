@@ -1,8 +1,8 @@
 //! Dielectric: glass, water, diamond, smooth or frosted.
 //!
 //! Light is either reflected, with the chance that Fresnel's equations give for unpolarised light, or refracted by
-//! Snell's law; past the critical angle all of it is reflected. Refracted radiance is divided by eta², as it spreads over
-//! another solid angle (Veach 1997, Robust Monte Carlo Methods, §5.2); entering and leaving cancel.
+//! Snell's law; past the critical angle all of it is reflected. Refracted radiance is divided by eta², as it spreads
+//! over another solid angle (Veach 1997, Robust Monte Carlo Methods, §5.2); entering and leaving cancel.
 //!
 //! A rough one does so at facets (see [`Ggx`]) of alpha = roughness². With h = wo + eta wi along the facet's normal m,
 //!
@@ -10,8 +10,8 @@
 //! for refraction.
 //!
 //! Visible normals are drawn, so samples weigh G₂ / G₁(wo) and G₁(wi) / eta². Walter et al. 2007,
-//! doi:10.2312/EGWR/EGSR07/195-206. Light from facet to facet is lost. f(wo, wi) eta² = f(wi, wo), where eta is the index on
-//! the side of `wi` over that on the side of `wo`.
+//! doi:10.2312/EGWR/EGSR07/195-206. Light from facet to facet is lost. f(wo, wi) eta² = f(wi, wo), where eta is the
+//! index on the side of `wi` over that on the side of `wo`.
 //!
 //! A hollow ball is a ball of glass with a smaller one of eta = 1/1.5 inside.
 //!
@@ -42,8 +42,8 @@ pub struct Dielectric {
     /// 1.33, diamond 2.42.
     #[schemars(range(min = 0.01, max = 100.0))]
     pub eta: f32,
-    /// 0 is polished, 1 completely rough; alpha is its square. It is polished, too, where it would blur by less than 0.03
-    /// degrees: for glass below 0.04.
+    /// 0 is polished, 1 completely rough; alpha is its square. It is polished, too, where it would blur by less than
+    /// 0.03 degrees: for glass below 0.04.
     #[schemars(range(min = 0.0, max = 1.0))]
     pub roughness: f32,
 }
@@ -139,11 +139,10 @@ impl DielectricBsdf {
         }
         let reflected = wi.z > 0.0;
         let facet = self.ggx.facet(wo, wi, if reflected { 1.0 } else { eta })?;
-        let reflectance = Fresnel::dielectric(facet.cos.min(1.0), eta).reflectance;
         let (weight, chance) = if reflected {
-            (self.ggx.g2_over_g1(wo, wi), reflectance)
+            (self.ggx.g2_over_g1(wo, wi), Fresnel::dielectric(facet.cos_o.min(1.0), eta).reflectance)
         } else {
-            (self.ggx.g1(wi) / (eta * eta), 1.0 - reflectance)
+            (self.ggx.g1(wi) / (eta * eta), 1.0 - Fresnel::between(facet.cos_o, facet.cos_i, eta))
         };
         (chance > 0.0).then_some((weight, chance * facet.pdf))
     }

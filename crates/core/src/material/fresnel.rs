@@ -22,9 +22,16 @@ impl Fresnel {
             return Self { reflectance: 1.0, cos_t: 0.0 };
         }
         let cos_t = cos_sq_t.sqrt().min(1.0);
+        Self { reflectance: Self::between(cos_i, cos_t, eta), cos_t }
+    }
+
+    /// The share that is reflected, from the cosines of both angles. Near the critical angle one of them does not tell
+    /// the other to many digits, so it is better to know both.
+    #[inline]
+    pub fn between(cos_i: f32, cos_t: f32, eta: f32) -> f32 {
         let parallel = (eta * cos_i - cos_t) / (eta * cos_i + cos_t);
         let perpendicular = (cos_i - eta * cos_t) / (cos_i + eta * cos_t);
-        Self { reflectance: 0.5 * (parallel * parallel + perpendicular * perpendicular), cos_t }
+        0.5 * (parallel * parallel + perpendicular * perpendicular)
     }
 }
 

@@ -10,7 +10,8 @@
 //! σ(w) = (cos θ + s(w)) / 2, with s(w) = √(z² + α² (x² + y²)),
 //!
 //! so G₁ = cos θ / σ = 1 / (1 + Λ). Light that is reflected leaves as high as it came; with heights correlated so,
-//! G₂ = 1 / (1 + Λₒ + Λᵢ). Light that goes through comes out elsewhere, and G₂ = G₁(wo) G₁(wi), as Walter et al. have it.
+//! G₂ = 1 / (1 + Λₒ + Λᵢ). Light that goes through comes out elsewhere, and G₂ = G₁(wo) G₁(wi), as Walter et al. have
+//! it.
 //!
 //! Normals are drawn in proportion to what is seen of them, D(m) (wo · m) / σ(wo), by reflecting at a spherical cap
 //! (Dupuy & Benyoub 2023, doi:10.1111/cgf.14867). What is scattered several times between facets is lost.
@@ -32,8 +33,10 @@ pub struct Ggx {
 /// The facets that send light from one direction to another.
 #[derive(Clone, Copy, Debug)]
 pub struct Facet {
-    /// Cosine of the angle between `wo` and their normal.
-    pub cos: f32,
+    /// Cosine of the angle between `wo` and their normal, above 0.
+    pub cos_o: f32,
+    /// Cosine of the angle between `wi` and their normal, or its other end for refraction, above 0.
+    pub cos_i: f32,
     /// Density of `wi` (1/sr) if visible normals are drawn and all light is sent this way.
     pub pdf: f32,
 }
@@ -82,7 +85,8 @@ impl Ggx {
         w.z.abs() / self.area(w)
     }
 
-    /// G₂ / G₁(wo) with correlated heights: the share of the facets seen from `wo` that `wi`, on the same side, sees too.
+    /// G₂ / G₁(wo) with correlated heights: the share of the facets seen from `wo` that `wi`, on the same side, sees
+    /// too.
     #[inline]
     pub fn g2_over_g1(self, wo: Vec3, wi: Vec3) -> f32 {
         let s = self.stretch(wo);
@@ -102,8 +106,8 @@ impl Ggx {
         Vec3::new(self.alpha * h.x, self.alpha * h.y, h.z).normalize()
     }
 
-    /// The facets that reflect light from `wi` to `wo` (`eta` = 1, `wi` on the side of `wo`) or refract it (`eta` the index
-    /// behind over before, not 1, `wi` on the other side); none if no facet does.
+    /// The facets that reflect light from `wi` to `wo` (`eta` = 1, `wi` on the side of `wo`) or refract it (`eta` the
+    /// index behind over before, not 1, `wi` on the other side); none if no facet does.
     ///
     /// Their normal is along h = wo + eta wi, and |dm / dwi| = eta² |wi · m| / |h|² (Walter et al. 2007, §4).
     #[inline]
@@ -114,12 +118,12 @@ impl Ggx {
             return None;
         }
         let m = h * (1.0_f32.copysign(h.z) / length_sq.sqrt());
-        let (cos_o, cos_i) = (wo.dot(m), wi.dot(m));
-        if cos_o <= 0.0 || cos_i * wi.z <= 0.0 {
+        let (cos_o, cos_i) = (wo.dot(m), wi.dot(m) * 1.0_f32.copysign(wi.z));
+        if cos_o <= 0.0 || cos_i <= 0.0 {
             return None;
         }
         let pdf_m = self.d(m) * cos_o / self.area(wo);
-        Some(Facet { cos: cos_o, pdf: pdf_m * (eta * eta * cos_i.abs() / length_sq) })
+        Some(Facet { cos_o, cos_i, pdf: pdf_m * (eta * eta * cos_i / length_sq) })
     }
 }
 

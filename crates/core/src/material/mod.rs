@@ -107,8 +107,8 @@ pub struct BsdfSample {
     pub pdf: f32,
     /// Whether `wi` is one of finitely many directions, which [`Bsdf::pdf`] knows nothing of.
     pub delta: bool,
-    /// By what the index of refraction changes along the path: that on the side of `wi` over that on the side of `wo`; 1 for
-    /// reflection. `weight` eta² is a share of energy, at most 1.
+    /// By what the index of refraction changes along the path: that on the side of `wi` over that on the side of `wo`;
+    /// 1 for reflection. `weight` eta² is a share of energy, at most 1.
     pub eta: f32,
 }
 

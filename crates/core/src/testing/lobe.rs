@@ -1,8 +1,8 @@
 //! Everything that a scattering lobe promises.
 //!
-//! The chi² test sorts directions into boxes of nearly equal chance, which a first set of samples lays out: a lobe as wide
-//! as the hemisphere and one as narrow as a hundredth of a degree are told from a wrong density equally well, and within a
-//! box a density varies little, so it is easy to integrate.
+//! The chi² test sorts directions into boxes of nearly equal chance, which a first set of samples lays out: a lobe as
+//! wide as the hemisphere and one as narrow as a hundredth of a degree are told from a wrong density equally well, and
+//! within a box a density varies little, so it is easy to integrate.
 
 use std::f64::consts::TAU;
 
@@ -12,8 +12,8 @@ use super::{SIGNIFICANCE, chi2_at};
 use crate::material::Bsdf;
 use crate::sampler::Independent;
 
-/// Whether a lobe claims that light can be sent either way: f(wo, wi) eta² = f(wi, wo), with eta the index of refraction on
-/// the side of wi over that on the side of wo (Veach 1997, §5.2); 1 if they are the same.
+/// Whether a lobe claims that light can be sent either way: f(wo, wi) eta² = f(wi, wo), with eta the index of
+/// refraction on the side of wi over that on the side of wo (Veach 1997, §5.2); 1 if they are the same.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Reciprocal {
     /// It does.
@@ -86,8 +86,8 @@ impl Cell {
         pairs.map(|(cell, &value)| cell.integrate(f, value, 0.5 * tolerance, depth - 1)).sum()
     }
 
-    /// The integral of a density, most of which lies where the points of `layout` do: cells of doubling size lead away from
-    /// their box, so that none is so large that its rule misses what the density has there.
+    /// The integral of a density, most of which lies where the points of `layout` do: cells of doubling size lead away
+    /// from their box, so that none is so large that its rule misses what the density has there.
     fn integrate_around(self, layout: &[Point], f: &impl Fn(Point) -> f64) -> f64 {
         let [rows, columns] = [0, 1].map(|axis| {
             let (lo, hi) = (self.0[0][axis], self.0[1][axis]);
@@ -105,8 +105,8 @@ impl Cell {
         pieces.map(|piece| piece.integrate(f, piece.gauss(f), 2e-7, 10)).sum()
     }
 
-    /// Halves itself where `layout` has as many points on either side, as long as they are many; finds the number of `points`
-    /// and the integral of `f` in each part.
+    /// Halves itself where `layout` has as many points on either side, as long as they are many; finds the number of
+    /// `points` and the integral of `f` in each part.
     fn divide(
         self,
         mut layout: Vec<Point>,
