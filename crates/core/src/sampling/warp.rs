@@ -42,8 +42,8 @@ pub fn uniform_ball(uc: f32, u: Vec2) -> Vec3 {
     libm::cbrtf(uc) * uniform_sphere(u)
 }
 
-/// A uniform point of a triangle: (u, v) stands for a + u (b − a) + v (c − a). Neighbours stay together, and none of the
-/// square is folded over.
+/// A uniform point of a triangle: (u, v) stands for a + u (b − a) + v (c − a). Neighbours stay together, and none of
+/// the square is folded over.
 ///
 /// Heitz 2019, "A Low-Distortion Map Between Triangle and Square".
 #[inline]

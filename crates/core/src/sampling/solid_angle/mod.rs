@@ -1,12 +1,13 @@
 //! Sampling a shape by the solid angle that it fills, seen from a point.
 //!
-//! Points spread evenly over a lamp's area cluster where the lamp is seen at a slant or from afar, and the light of each
-//! must be corrected by cos θ / distance². Directions spread evenly over the solid angle need no correction: their density
-//! is 1 / solid angle, and only the material's lobe and shadows are left to make noise. Each file maps the unit square to
-//! directions toward one shape, continuously, so stratified numbers stay stratified.
+//! Points spread evenly over a lamp's area cluster where the lamp is seen at a slant or from afar, and the light of
+//! each must be corrected by cos θ / distance². Directions spread evenly over the solid angle need no correction: their
+//! density is 1 / solid angle, and only the material's lobe and shadows are left to make noise. Each file maps the unit
+//! square to directions toward one shape, continuously, so stratified numbers stay stratified.
 //!
-//! A value is made for one reference point. Making it costs no more than its solid angle, all that a density needs. Small
-//! and slanted shapes live from differences of large numbers, so the flat shapes are computed in double precision.
+//! A value is made for one reference point. Making it costs no more than its solid angle, all that a density needs.
+//! Small and slanted shapes live from differences of large numbers, so the flat shapes are computed in double
+//! precision.
 
 mod rectangle;
 mod sphere;
@@ -38,12 +39,13 @@ impl FlatSample {
     }
 }
 
-/// Flat shapes of a smaller solid angle (sr) than this are not sampled by it: double precision leaves a relative error of
-/// about 1e-16 / solid angle.
+/// Flat shapes of a smaller solid angle (sr) than this are not sampled by it: double precision leaves a relative error
+/// of about 1e-16 / solid angle.
 const SMALLEST: f64 = 1e-9;
 
-/// The density per solid angle (1/sr) of points with the density `pdf_area` (1/m²) on a surface, from a distance whose square is
-/// `distance_sq` and with the cosine `cos` between the surface's normal and the direction. 0 where there is none: edge-on.
+/// The density per solid angle (1/sr) of points with the density `pdf_area` (1/m²) on a surface, from a distance whose
+/// square is `distance_sq` and with the cosine `cos` between the surface's normal and the direction. 0 where there is
+/// none: edge-on.
 #[inline]
 pub fn pdf_from_area(pdf_area: f32, distance_sq: f32, cos: f32) -> f32 {
     let pdf = pdf_area * distance_sq / cos.abs();

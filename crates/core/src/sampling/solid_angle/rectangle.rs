@@ -1,17 +1,19 @@
 //! The spherical rectangle: a rectangle seen from a point.
 //!
-//! In coordinates along the edges, with the reference point at the origin and the plane at height h, the rectangle spans
-//! x₀..x₁ × y₀..y₁. The angle γ of its image on the sphere at a corner has, by the normals of the planes through its edges,
+//! In coordinates along the edges, with the reference point at the origin and the plane at height h, the rectangle
+//! spans x₀..x₁ × y₀..y₁. The angle γ of its image on the sphere at a corner has, by the normals of the planes through
+//! its edges,
 //!
 //! cot γ = ∓ x y / (h √(x² + y² + h²)),
 //!
-//! and the solid angle is S = γ₀ + γ₁ + γ₂ + γ₃ − 2π. A share u of it lies left of the x whose two angles are au = u S + k,
-//! k = 2π minus those at x₀. In a column of one x, the sine of the latitude, y / √(x² + y² + h²), is uniform.
+//! and the solid angle is S = γ₀ + γ₁ + γ₂ + γ₃ − 2π. A share u of it lies left of the x whose two angles are
+//! au = u S + k, k = 2π minus those at x₀. In a column of one x, the sine of the latitude, y / √(x² + y² + h²), is
+//! uniform.
 //! Ureña, Fajardo & King 2013, "An Area-Preserving Parametrization for Spherical Rectangles", doi:10.1111/cgf.12151.
 //!
-//! Angles are kept as complex numbers: four are added by multiplications, so one arc tangent gives S where the paper takes four
-//! arc cosines, and none is needed to get sin(au) and cos(au). Those hold what is small as a small imaginary part, without
-//! the paper's loss of digits at small solid angles.
+//! Angles are kept as complex numbers: four are added by multiplications, so one arc tangent gives S where the paper
+//! takes four arc cosines, and none is needed to get sin(au) and cos(au). Those hold what is small as a small imaginary
+//! part, without the paper's loss of digits at small solid angles.
 
 use std::f32::consts::TAU;
 
@@ -38,8 +40,8 @@ pub struct SphericalRectangle {
 }
 
 impl SphericalRectangle {
-    /// The rectangle `corner` + s `u` + t `v` for s and t in 0..1, where `u` ⟂ `v`, seen from `p`. None from its plane, or if
-    /// the solid angle is below 1e-9 sr or less than that from a whole hemisphere: there, sample the area.
+    /// The rectangle `corner` + s `u` + t `v` for s and t in 0..1, where `u` ⟂ `v`, seen from `p`. None from its plane,
+    /// or if the solid angle is below 1e-9 sr or less than that from a whole hemisphere: there, sample the area.
     #[inline]
     pub fn new(corner: Vec3, u: Vec3, v: Vec3, p: Vec3) -> Option<Self> {
         let (corner, u, v) = (corner.as_dvec3() - p.as_dvec3(), u.as_dvec3(), v.as_dvec3());

@@ -1,15 +1,15 @@
 //! The cone of directions in which a sphere is seen.
 //!
-//! With distance D to the centre and radius r, the cone's half angle has cos² θₘ = (D² − r²) / D². A uniform point d of the unit
-//! disk, ρ = |d|, becomes the direction with
+//! With distance D to the centre and radius r, the cone's half angle has cos² θₘ = (D² − r²) / D². A uniform point d of
+//! the unit disk, ρ = |d|, becomes the direction with
 //!
 //! 1 − cos θ = ρ² (1 − cos θₘ) and azimuth of d,
 //!
 //! the equal-area map of disk and cap (Lambert 1772), so directions are uniform, with density 1 / (2π (1 − cos θₘ)).
 //! Pharr, Jakob & Humphreys, Physically Based Rendering, 4th ed. 2023, §6.2.4.
 //!
-//! Written with 1 − cos θₘ = sin² θₘ / (1 + cos θₘ) and ρ² beside 1 − ρ², everything is a sum or product of positive numbers:
-//! nothing cancels, neither for far spheres nor near to the surface. No function but square roots is needed.
+//! Written with 1 − cos θₘ = sin² θₘ / (1 + cos θₘ) and ρ² beside 1 − ρ², everything is a sum or product of positive
+//! numbers: nothing cancels, neither for far spheres nor near to the surface. No function but square roots is needed.
 
 use std::f32::consts::TAU;
 
@@ -40,8 +40,8 @@ pub struct SphereSample {
 }
 
 impl SphereCone {
-    /// The sphere seen from `p`; none from inside, from its surface, or if it is too small for single precision to hold the
-    /// density.
+    /// The sphere seen from `p`; none from inside, from its surface, or if it is too small for single precision to hold
+    /// the density.
     #[inline]
     pub fn new(center: Vec3, radius: f32, p: Vec3) -> Option<Self> {
         // The squares' difference near the surface needs double precision.

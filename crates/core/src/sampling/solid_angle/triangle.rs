@@ -10,11 +10,11 @@
 //!
 //! tan(b′ / 2) = sin(σ / 2) / (tan(c / 2) sin(α − σ / 2)),
 //!
-//! b′ the length of the arc a c′, c that of a b. The second number picks a point w on the arc b c′ such that 1 − cos of its
-//! distance from b is uniform: the chord b w is √u of the chord b c′.
+//! b′ the length of the arc a c′, c that of a b. The second number picks a point w on the arc b c′ such that 1 − cos of
+//! its distance from b is uniform: the chord b w is √u of the chord b c′.
 //!
-//! Half angles neither cancel nor need an inverse function. One arc tangent gives S, where the usual form (Pharr, Jakob &
-//! Humphreys 2023, §6.5.4) takes three arc sines and fails below 3e-4 sr.
+//! Half angles neither cancel nor need an inverse function. One arc tangent gives S, where the usual form (Pharr, Jakob
+//! & Humphreys 2023, §6.5.4) takes three arc sines and fails below 3e-4 sr.
 
 use std::f64::consts::TAU;
 
@@ -101,8 +101,8 @@ impl SphericalTriangle {
     }
 }
 
-/// The tangent of half the angle between two vectors of which the length of their cross product, their dot product and the product
-/// of their lengths are known, by the formula that does not cancel.
+/// The tangent of half the angle between two vectors of which the length of their cross product, their dot product and
+/// the product of their lengths are known, by the formula that does not cancel.
 #[inline]
 fn tan_half(cross: f64, dot: f64, lengths: f64) -> f64 {
     if dot > 0.0 { cross / (lengths + dot) } else { (lengths - dot) / cross }
