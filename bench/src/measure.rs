@@ -21,8 +21,10 @@ pub fn read_scene(name: &str) -> Result<SceneDesc, Error> {
     eyebeam_io::scene::read(&scenes.join(name).with_extension("toml"), &[])
 }
 
-/// Makes a picture so small that measuring it takes little time: as wide as asked, of the scene's own proportions.
+/// Makes a picture so small that measuring it takes little time: as wide as asked, of the scene's own proportions, and by
+/// the means of the textbook program.
 pub fn shrink(desc: &mut SceneDesc, width: u32, spp: u32) {
+    desc.render = desc.render.plain();
     let render = &mut desc.render;
     render.height = (width * render.height).div_ceil(render.width);
     render.width = width;

@@ -279,7 +279,9 @@ impl Textbook {
         let background = match &desc.environment {
             EnvironmentDesc::Gradient(g) => Background { bottom: g.bottom.0.into(), top: g.top.0.into() },
             EnvironmentDesc::Constant(k) => Background { bottom: k.radiance.0.into(), top: k.radiance.0.into() },
-            EnvironmentDesc::None(_) => return Err("the book has no other light than the sky".to_owned()),
+            EnvironmentDesc::Image(_) | EnvironmentDesc::None(_) => {
+                return Err("the book has no other light than its sky".to_owned());
+            }
         };
         let mut objects: Vec<Arc<dyn Hittable>> = Vec::new();
         for sphere in &desc.shape.sphere {
@@ -288,7 +290,9 @@ impl Textbook {
                 MaterialDesc::Lambertian(m) => Arc::new(Lambertian { albedo: m.albedo.0.into() }),
                 MaterialDesc::Metal(m) => Arc::new(Metal { albedo: m.albedo.0.into(), fuzz: m.roughness.into() }),
                 MaterialDesc::Dielectric(m) => Arc::new(Dielectric { index_of_refraction: m.eta.into() }),
-                MaterialDesc::Emissive(_) => return Err("the book has no lamps".to_owned()),
+                MaterialDesc::Conductor(_) | MaterialDesc::Emissive(_) => {
+                    return Err("the book has neither lamps nor facets".to_owned());
+                }
             };
             objects.push(Arc::new(Sphere { center: sphere.center.into(), radius: sphere.radius.into(), material }));
         }

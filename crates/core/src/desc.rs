@@ -10,7 +10,7 @@ use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 use crate::camera::CameraDesc;
-use crate::film::FilterDesc;
+use crate::film::{BoxFilter, FilterDesc};
 use crate::integrator::IntegratorKind;
 use crate::light::select::LightSelection;
 use crate::light::{EnvironmentDesc, LightsDesc};
@@ -90,6 +90,16 @@ impl RenderDesc {
     pub const MAX_SPP: u32 = 1 << 24;
     /// The most edges of a path.
     pub const MAX_DEPTH: u32 = 1_000_000;
+
+    /// The same picture by the plainest means: `weekend`, independent numbers, a box for a pixel. What theory is about.
+    pub fn plain(&self) -> Self {
+        Self {
+            integrator: IntegratorKind::Weekend,
+            sampler: SamplerKind::Independent,
+            filter: FilterDesc::Box(BoxFilter::default()),
+            ..self.clone()
+        }
+    }
 
     fn check(&self, c: &mut Checker) {
         c.count("width", self.width, Self::MAX_SIDE);

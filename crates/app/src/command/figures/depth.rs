@@ -29,7 +29,7 @@ pub(super) fn make(study: &Study<'_>) -> Result<(), Error> {
     let desc = scene("two-spheres.toml", include_str!("../../../../../scenes/two-spheres.toml"))?;
     let scene = build(&desc)?;
     let (width, height, spp) = study.pick((480, 360, 400), (160, 120, 64));
-    let settings = Settings { width, height, spp, ..Settings::from(&desc.render) };
+    let settings = Settings { width, height, spp, ..Settings::from(&desc.render.plain()) };
     let regions = regions(&Probe { desc: &desc, scene: &scene, width, height });
 
     let (mut table, mut tiles) = (Table::new(&COLUMNS), Vec::new());

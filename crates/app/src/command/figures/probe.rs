@@ -54,12 +54,12 @@ impl Probe<'_> {
         let spheres = &self.desc.shape.sphere;
         let off = |i: &usize| (p.distance(Vec3::from(spheres[*i].center)) - spheres[*i].radius).abs();
         let sphere = (0..spheres.len()).min_by(|a, b| off(a).total_cmp(&off(b)))?;
-        Some((Seen { sphere, p }, si.scatter(&mut numbers()).map(|(_, ray)| ray)))
+        Some((Seen { sphere, p }, si.scatter(&si.bsdf(), &mut numbers()).map(|(_, ray)| ray)))
     }
 }
 
 /// Numbers for what does not depend on them: a pinhole, a perfect mirror.
-fn numbers() -> Sampler {
+fn numbers() -> Sampler<'static> {
     Sampler::Independent(Independent::new(0, UVec2::ZERO, 0))
 }
 

@@ -28,7 +28,7 @@ pub(super) fn make(study: &Study<'_>) -> Result<(), Error> {
     let desc = scene("roughness.toml", include_str!("../../../../../scenes/roughness.toml"))?;
     let scene = build(&desc)?;
     let (width, height, spp) = study.pick((1240, 280, 512), (620, 140, 32));
-    let image = render(&scene, Settings { width, height, spp, ..Settings::from(&desc.render) });
+    let image = render(&scene, Settings { width, height, spp, ..Settings::from(&desc.render.plain()) });
     let probe = Probe { desc: &desc, scene: &scene, width, height };
 
     let mut table = Table::new(&["roughness", "mean_luminance", "deviation_of_luminance", "horizon_width"]);

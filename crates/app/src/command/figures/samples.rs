@@ -27,7 +27,7 @@ pub(super) fn make(study: &Study<'_>) -> Result<(), Error> {
     let desc = scene("spheres.toml", include_str!("../../../../../scenes/spheres.toml"))?;
     let scene = build(&desc)?;
     let (width, height) = study.pick((280, 158), (128, 72));
-    let settings = Settings { width, height, ..Settings::from(&desc.render) };
+    let settings = Settings { width, height, ..Settings::from(&desc.render.plain()) };
     let reference = Reference::render(&scene, &settings, study.pick(2048, 256));
     study.say("samples: the reference is rendered");
 

@@ -12,7 +12,7 @@ use glam::{UVec2, Vec3};
 
 /// How everything is rendered but for what is varied.
 pub(super) fn settings() -> Settings {
-    Settings::from(&RenderDesc::default())
+    Settings::from(&RenderDesc::default().plain())
 }
 
 /// The inside of a ball that shines and reflects: no path ends before the maximum depth.
