@@ -35,7 +35,7 @@ impl Error {
     pub(crate) fn exit_code(&self) -> u8 {
         match self {
             Self::Usage(_) | Self::Io(eyebeam_io::Error::UnknownFormat { .. }) => 2,
-            Self::Io(eyebeam_io::Error::Scene(_)) | Self::Scene(_) => 3,
+            Self::Io(eyebeam_io::Error::Scene(_) | eyebeam_io::Error::File(_)) | Self::Scene(_) => 3,
             Self::Io(eyebeam_io::Error::Io { .. }) | Self::Stdout(_) => 4,
             Self::Memory { .. } => 5,
             Self::Io(eyebeam_io::Error::Encode(_)) | Self::Listen(_) => INTERNAL,

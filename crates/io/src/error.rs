@@ -9,6 +9,9 @@ pub enum Error {
     /// The scene says something wrong; all that was found.
     #[error("{}", .0.iter().map(ToString::to_string).collect::<Vec<_>>().join("\n"))]
     Scene(Vec<Diagnostic>),
+    /// A file that the scene refers to is wrong, or has something that is not read.
+    #[error("{0}")]
+    File(FileError),
     /// The file name has an ending that no format has.
     #[error("error: cannot tell the image format of `{}`\nhint: end its name in {known}", .path.display())]
     UnknownFormat {
@@ -39,6 +42,64 @@ impl Error {
 
     pub(crate) fn write(path: &Path, source: std::io::Error) -> Self {
         Self::Io { action: "write", path: path.to_owned(), source }
+    }
+}
+
+/// What is wrong with a picture, a mesh or a profile, where, and what to do about it.
+#[derive(Clone, Debug, PartialEq)]
+pub struct FileError {
+    /// The file, as the user named it.
+    pub file: String,
+    /// What is wrong.
+    pub message: String,
+    /// Where.
+    pub at: At,
+    /// What to do about it.
+    pub hint: Option<String>,
+}
+
+/// Where in a file.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum At {
+    /// Anywhere.
+    File,
+    /// In this line of a text, from 1.
+    Line(usize),
+    /// At this byte, from 0.
+    Byte(usize),
+}
+
+impl FileError {
+    /// Of a file that has no name yet: [`Self::of`] gives it.
+    pub(crate) fn new(message: impl Into<String>) -> Self {
+        Self { file: String::new(), message: message.into(), at: At::File, hint: None }
+    }
+
+    pub(crate) fn at(self, at: At) -> Self {
+        Self { at, ..self }
+    }
+
+    pub(crate) fn hint(self, hint: impl Into<String>) -> Self {
+        Self { hint: Some(hint.into()), ..self }
+    }
+
+    pub(crate) fn of(self, file: &str) -> Error {
+        Error::File(Self { file: file.to_owned(), ..self })
+    }
+}
+
+impl fmt::Display for FileError {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        write!(f, "error: {}\n  --> {}", visible(&self.message), visible(&self.file))?;
+        match self.at {
+            At::File => {}
+            At::Line(line) => write!(f, ":{line}")?,
+            At::Byte(byte) => write!(f, ", byte {byte}")?,
+        }
+        if let Some(hint) = &self.hint {
+            write!(f, "\nhint: {}", visible(hint))?;
+        }
+        Ok(())
     }
 }
 

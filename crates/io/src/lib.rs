@@ -4,8 +4,12 @@
 #![forbid(unsafe_code)]
 
 pub mod error;
+mod file;
+pub mod ies;
 pub mod image;
 pub mod output;
 pub mod scene;
+mod warning;
 
-pub use error::{Diagnostic, Error, Place};
+pub use error::{At, Diagnostic, Error, FileError, Place};
+pub use warning::Warning;

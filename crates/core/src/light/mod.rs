@@ -3,6 +3,7 @@
 mod area;
 mod directional;
 mod environment;
+mod ies;
 mod lat_long;
 mod lights;
 mod point;
@@ -18,6 +19,7 @@ use crate::validate::Checker;
 
 pub use directional::DirectionalLight;
 pub use environment::{Constant, EnvironmentDesc, Gradient, ImageEnvironment, NoLight};
+pub use ies::IesProfile;
 pub use point::PointLight;
 pub use spot::SpotLight;
 

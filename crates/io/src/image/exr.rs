@@ -7,7 +7,7 @@ use exr::prelude::*;
 use crate::error::Error;
 
 /// Corners of the colour space and its white: Rec. 709, D65.
-const REC_709: attribute::Chromaticities = attribute::Chromaticities {
+pub(super) const REC_709: attribute::Chromaticities = attribute::Chromaticities {
     red: Vec2(0.64, 0.33),
     green: Vec2(0.3, 0.6),
     blue: Vec2(0.15, 0.06),

@@ -1,8 +1,11 @@
-//! Image files. The format follows from the ending of the name.
+//! Image files. The format that is written follows from the ending of the name, that which is read from the bytes.
 
 mod exr;
 mod hdr;
 mod png;
+mod read;
+
+pub use read::{read_image, read_image_bytes};
 
 use std::path::Path;
 

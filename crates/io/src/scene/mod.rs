@@ -3,6 +3,7 @@
 mod explain;
 mod merge;
 mod nesting;
+pub mod ply;
 mod source;
 mod toml;
 

@@ -1,0 +1,126 @@
+//! OpenEXR: the first layer that has R, G and B, or Y alone; half, float or integer, scan lines or tiles.
+//!
+//! The picture is the layer's data window. Alpha, deep data, further layers and smaller resolutions are not read.
+
+use std::io::Cursor;
+
+use exr::block::{self, reader::Reader};
+use exr::error::Error as ExrError;
+use exr::image::read::specific_channels::ReadSpecificChannel;
+use exr::math::Vec2;
+use exr::meta::header::Header;
+use exr::prelude::{ReadChannels, ReadLayers, read};
+use eyebeam_core::film::Image;
+
+use crate::error::FileError;
+use crate::image::exr::REC_709;
+use crate::image::read::{Decoded, check_size};
+use crate::warning::Warning;
+
+/// A block of lines or a tile is decoded at once.
+const MAX_BLOCK: usize = 1 << 30;
+
+pub(super) fn decode(bytes: &[u8]) -> Decoded {
+    let wrong = |e: ExrError| FileError::new(format!("cannot decode the OpenEXR picture: {e}"));
+    let file = block::read(Cursor::new(bytes), false).map_err(wrong)?;
+    let headers = file.headers();
+    let with = |names: &[&str]| headers.iter().find(|h| !h.deep && names.iter().all(|n| channel(h, n)));
+    let color = with(&["R", "G", "B"]);
+    let header = color.or_else(|| with(&["Y"])).ok_or_else(|| no_channels(headers))?;
+    let Vec2(width, height) = header.layer_size;
+    check_size(width as u64, height as u64, 0)?;
+    if header.max_block_byte_size() > MAX_BLOCK {
+        return Err(FileError::new("the blocks of the OpenEXR picture are too large").hint("store it in scan lines"));
+    }
+    let warnings = warnings(header, color.is_none());
+    let image = if color.is_some() { decode_rgb(file) } else { decode_y(file) };
+    Ok((image.map_err(wrong)?, warnings))
+}
+
+fn channel(header: &Header, name: &str) -> bool {
+    header.channels.list.iter().any(|c| c.name.eq(name) && c.sampling == Vec2(1, 1))
+}
+
+fn no_channels(headers: &[Header]) -> FileError {
+    if headers.iter().all(|h| h.deep) {
+        return FileError::new("deep OpenEXR pictures are not read").hint("flatten it");
+    }
+    let names: Vec<_> = headers.iter().flat_map(|h| &h.channels.list).map(|c| c.name.to_string()).take(20).collect();
+    FileError::new(format!("no layer of the OpenEXR picture has R, G and B, or Y; there are {}", names.join(", ")))
+        .hint("rename the channels of the layer that you want")
+}
+
+fn warnings(header: &Header, grey: bool) -> Vec<Warning> {
+    let mut warnings = Vec::new();
+    if header.shared_attributes.chromaticities.is_some_and(|c| c != REC_709) {
+        warnings.push(Warning::new("the picture's primaries are not those of Rec. 709: they are ignored"));
+    }
+    if header.data_window() != header.shared_attributes.display_window {
+        warnings.push(Warning::new("the picture's data window is not its display window: it is cut to its data"));
+    }
+    if grey && ["RY", "BY"].iter().any(|n| header.channels.list.iter().any(|c| c.name.eq(*n))) {
+        warnings.push(Warning::new("the picture's colour differences RY and BY are ignored: it is grey"));
+    }
+    warnings
+}
+
+fn decode_rgb(file: Reader<Cursor<&[u8]>>) -> Result<Image, ExrError> {
+    let pixels = read().no_deep_data().largest_resolution_level().specific_channels();
+    let pixels = pixels.required("R").required("G").required("B");
+    let pixels = pixels.collect_pixels(
+        |Vec2(width, height), _| Image::new(width as u32, height as u32),
+        |image: &mut Image, Vec2(x, y), (r, g, b): (f32, f32, f32)| image.set_pixel(x as u32, y as u32, [r, g, b]),
+    );
+    let file = pixels.first_valid_layer().all_attributes().non_parallel().from_chunks(file)?;
+    Ok(file.layer_data.channel_data.pixels)
+}
+
+fn decode_y(file: Reader<Cursor<&[u8]>>) -> Result<Image, ExrError> {
+    let pixels = read().no_deep_data().largest_resolution_level().specific_channels().required("Y");
+    let pixels = pixels.collect_pixels(
+        |Vec2(width, height), _| Image::new(width as u32, height as u32),
+        |image: &mut Image, Vec2(x, y), (luminance,): (f32,)| image.set_pixel(x as u32, y as u32, [luminance; 3]),
+    );
+    let file = pixels.first_valid_layer().all_attributes().non_parallel().from_chunks(file)?;
+    Ok(file.layer_data.channel_data.pixels)
+}
+
+#[cfg(test)]
+mod tests {
+    use exr::prelude::*;
+
+    fn encode(compression: Compression, channels: &[(&str, FlatSamples)]) -> Vec<u8> {
+        let channels = channels.iter().map(|(name, samples)| AnyChannel::new(*name, samples.clone())).collect();
+        let encoding = Encoding { compression, blocks: Blocks::Tiles(Vec2(2, 2)), line_order: LineOrder::Increasing };
+        let layer = Layer::new((3, 1), LayerAttributes::named("a"), encoding, AnyChannels::sort(channels));
+        let mut bytes = Vec::new();
+        let file = Image::from_layer(layer);
+        file.write().non_parallel().to_buffered(std::io::Cursor::new(&mut bytes)).unwrap();
+        bytes
+    }
+
+    fn pixels(bytes: &[u8]) -> Vec<[f32; 3]> {
+        super::decode(bytes).unwrap().0.pixels().to_vec()
+    }
+
+    #[test]
+    fn every_kind_of_sample() {
+        let half = FlatSamples::F16([0.5, 1.0, 2.0].map(f16::from_f32).to_vec());
+        let float = FlatSamples::F32(vec![0.1, 1e-20, 1e30]);
+        let integer = FlatSamples::U32(vec![0, 1, 70000]);
+        for compression in [Compression::Uncompressed, Compression::RLE, Compression::ZIP1, Compression::PIZ] {
+            let channels = [("R", half.clone()), ("A", half.clone()), ("G", float.clone()), ("B", integer.clone())];
+            let expected = [[0.5, 0.1, 0.0], [1.0, 1e-20, 1.0], [2.0, 1e30, 70000.0]];
+            assert_eq!(pixels(&encode(compression, &channels)), expected, "{compression:?}");
+        }
+        assert_eq!(pixels(&encode(Compression::ZIP16, &[("Y", half)])), [[0.5; 3], [1.0; 3], [2.0; 3]]);
+    }
+
+    #[test]
+    fn other_channels_are_told() {
+        let samples = FlatSamples::F32(vec![0.0; 3]);
+        let bytes = encode(Compression::RLE, &[("Z", samples.clone()), ("diffuse.R", samples)]);
+        let error = super::decode(&bytes).unwrap_err();
+        assert!(error.message.ends_with("there are Z, diffuse.R"), "{error}");
+    }
+}

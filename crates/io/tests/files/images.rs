@@ -1,0 +1,144 @@
+//! Pictures: all good ones are read, all damaged ones end in a picture or in an error.
+
+use std::time::{Duration, Instant};
+
+use eyebeam_core::film::Image;
+use eyebeam_io::image::{ImageFormat, read_image, read_image_bytes};
+use eyebeam_io::{Error, Warning};
+use proptest::prelude::*;
+
+use crate::{corpus, flaw, has_ending};
+
+/// Whatever the bytes, soon.
+fn try_image(bytes: &[u8]) -> Option<Image> {
+    let start = Instant::now();
+    let read = read_image_bytes("a", bytes).map_err(|error| flaw(error, bytes));
+    assert!(start.elapsed() < Duration::from_secs(20), "{:?}", start.elapsed());
+    let (image, _) = read.ok()?;
+    assert!(image.pixels().iter().flatten().all(|c| (0.0..f32::INFINITY).contains(c)));
+    Some(image)
+}
+
+fn mean(image: &Image) -> f64 {
+    image.pixels().iter().flatten().map(|&c| f64::from(c)).sum::<f64>() / (3 * image.pixels().len()) as f64
+}
+
+fn gradient() -> Image {
+    let mut image = Image::new(20, 7);
+    for (y, x) in (0..7).flat_map(|y| (0..20).map(move |x| (y, x))) {
+        image.set_pixel(x, y, [x as f32 * 0.05, y as f32 * 0.1, (x * y) as f32 * 0.01]);
+    }
+    image
+}
+
+#[test]
+fn what_was_written_is_read() {
+    for (format, error) in [(ImageFormat::Exr, 0.0), (ImageFormat::Hdr, 0.01), (ImageFormat::Png, 0.005)] {
+        let (mut image, bytes) = (gradient(), gradient());
+        let bytes = format.encode(&bytes, "{}").unwrap();
+        let (read, warnings) = read_image_bytes("a", &bytes).unwrap();
+        assert_eq!(warnings, []);
+        assert_eq!((read.width(), read.height()), (20, 7));
+        if format == ImageFormat::Png {
+            // It ends at white.
+            let white = |p: [f32; 3]| p.map(|c| c.min(1.0));
+            (0..7).for_each(|y| (0..20).for_each(|x| image.set_pixel(x, y, white(image.pixel(x, y)))));
+        }
+        for (a, b) in image.pixels().iter().flatten().zip(read.pixels().iter().flatten()) {
+            assert!((a - b).abs() <= error, "{format:?}: {a}, not {b}");
+        }
+    }
+}
+
+#[test]
+fn what_is_not_finite_is_told_once() {
+    let mut image = gradient();
+    image.set_pixel(3, 3, [f32::NAN, f32::INFINITY, -f32::INFINITY]);
+    image.set_pixel(4, 3, [-1.0; 3]);
+    let bytes = ImageFormat::Exr.encode(&image, "{}").unwrap();
+    let (read, warnings) = read_image_bytes("a", &bytes).unwrap();
+    assert!(matches!(warnings.as_slice(), [Warning { message }] if message.starts_with("1 pixel had")), "{warnings:?}");
+    assert_eq!(read.pixel(3, 3), [0.0, 19.0 * 6.0 * 0.01, 0.0]);
+    assert_eq!(read.pixel(4, 3), [0.0; 3]);
+}
+
+#[test]
+fn good_ones() {
+    for path in corpus("hdri").into_iter().filter(|p| has_ending(p, "hdr")) {
+        let (image, _) = read_image(&path).unwrap();
+        assert_eq!((image.width(), image.height()), (1024, 512), "{}", path.display());
+        assert!((0.05..10.0).contains(&mean(&image)), "{}: {}", path.display(), mean(&image));
+        let by_other = image::open(&path).unwrap().into_rgb32f();
+        for (pixel, expected) in image.pixels().iter().zip(by_other.pixels()) {
+            assert_eq!(*pixel, expected.0);
+        }
+    }
+    for path in corpus("exr_formats").into_iter().filter(|p| has_ending(p, "exr")) {
+        let (image, _) = read_image(&path).unwrap_or_else(|e| panic!("{e}"));
+        assert!(mean(&image) > 0.0, "{}", path.display());
+    }
+    for path in corpus("rtweekend").into_iter().filter(|p| has_ending(p, "png") || has_ending(p, "jpg")) {
+        let (image, warnings) = read_image(&path).unwrap_or_else(|e| panic!("{e}"));
+        assert!((0.0..1.0).contains(&mean(&image)) && warnings.is_empty(), "{}", path.display());
+    }
+}
+
+#[test]
+fn bad_ones() {
+    for path in corpus("bad") {
+        let start = Instant::now();
+        match read_image(&path) {
+            Ok((image, _)) => println!("{} x {}: {}", image.width(), image.height(), path.display()),
+            Err(Error::File(_)) => {}
+            Err(error) => panic!("{error}"),
+        }
+        assert!(start.elapsed() < Duration::from_secs(5), "{}: {:?}", path.display(), start.elapsed());
+    }
+}
+
+#[test]
+fn truncated() {
+    for format in [ImageFormat::Exr, ImageFormat::Hdr, ImageFormat::Png] {
+        let bytes = format.encode(&gradient(), "{}").unwrap();
+        for end in 0..bytes.len() {
+            let whole = try_image(&bytes[..end]).is_some();
+            // PNG ends in a chunk that says so.
+            assert!(!whole || (format == ImageFormat::Png && end + 16 > bytes.len()), "{format:?} cut at {end}");
+        }
+    }
+}
+
+#[test]
+fn sizes_that_are_too_large_are_refused_at_once() {
+    let png = ImageFormat::Png.encode(&gradient(), "{}").unwrap();
+    let mut large = png.clone();
+    large[16..24].copy_from_slice(&[0x7f, 0xff, 0xff, 0xff, 0x7f, 0xff, 0xff, 0xff]);
+    let hdr = b"#?RADIANCE\n\n-Y 100000 +X 100000\n".to_vec();
+    for bytes in [large, hdr] {
+        let start = Instant::now();
+        assert!(try_image(&bytes).is_none());
+        assert!(start.elapsed() < Duration::from_secs(1));
+    }
+}
+
+proptest! {
+    #![proptest_config(ProptestConfig {
+        cases: 1000,
+        failure_persistence: None,
+        rng_seed: prop::test_runner::RngSeed::Fixed(1),
+        ..ProptestConfig::default()
+    })]
+
+    #[test]
+    fn with_some_bytes_changed(
+        format in prop::sample::select(vec![ImageFormat::Exr, ImageFormat::Hdr, ImageFormat::Png]),
+        changes in prop::collection::vec((any::<prop::sample::Index>(), any::<u8>()), 1..4),
+    ) {
+        let mut bytes = format.encode(&gradient(), "{}").unwrap();
+        for (at, byte) in changes {
+            let at = at.index(bytes.len());
+            bytes[at] = byte;
+        }
+        try_image(&bytes);
+    }
+}

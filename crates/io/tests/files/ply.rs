@@ -1,0 +1,233 @@
+//! Meshes of PLY files.
+
+use std::time::{Duration, Instant};
+
+use eyebeam_io::At;
+use eyebeam_io::scene::ply::{MeshData, read_ply, read_ply_bytes};
+use proptest::prelude::*;
+
+use crate::{corpus, flaw, has_ending};
+
+fn read(text: &str) -> MeshData {
+    read_ply_bytes("a.ply", text.as_bytes()).unwrap_or_else(|e| panic!("{e}"))
+}
+
+fn try_ply(bytes: &[u8]) -> Option<MeshData> {
+    let start = Instant::now();
+    let read = read_ply_bytes("a.ply", bytes).map_err(|error| flaw(error, bytes));
+    assert!(start.elapsed() < Duration::from_secs(5), "{:?}", start.elapsed());
+    let mesh = read.ok()?;
+    let vertices = mesh.vertices.len();
+    assert!(mesh.vertices.iter().flatten().all(|c| c.is_finite()));
+    assert!(mesh.triangles.iter().flatten().all(|&i| (i as usize) < vertices));
+    assert!(mesh.normals.is_empty() || mesh.normals.len() == vertices);
+    assert!(mesh.uvs.is_empty() || mesh.uvs.len() == vertices);
+    Some(mesh)
+}
+
+/// A square and a triangle, with things to skip before, between and after.
+const TEXT: &str = "ply\nformat ascii 1.0\ncomment by hand\n\
+    element camera 1\nproperty list uchar float view\nproperty int id\n\
+    element vertex 5\nproperty float ny\nproperty double z\nproperty short x\nproperty float nz\nproperty list uint8 char tag\n\
+    property float y\nproperty float nx\nproperty float t\nproperty float s\n\
+    element face 3\nproperty uchar red\nproperty list uchar uint vertex_indices\nproperty list uchar float texcoord\n\
+    element edge 1\nproperty int a\nend_header\n\
+    3 0.5 1 2 7\n\
+    1 0.5 0 0 0 0 0 0.25 0.75\n1 0 1 0 1 9 0 nan 0 0\n1 0 1 0 2 9 9 1 0 0 0\n1 0 0 0 0 1 0 0 0\n1 2 0 0 0 1e-3 0 0 0\n\
+    255 4 0 1 2 3 2 0 0\n1 2 0 1 0\n0 3\n3 2 4 0\n1\n";
+
+#[test]
+fn any_order_and_anything_else() {
+    let mesh = read(TEXT);
+    let up = [0.0, 1.0, 0.0];
+    assert_eq!(mesh.vertices[0], [0.0, 0.0, 0.5]);
+    assert_eq!(mesh.vertices[2], [1.0, 1.0, 0.0]);
+    assert_eq!(mesh.vertices[4], [0.0, 1e-3, 2.0]);
+    assert_eq!(mesh.normals, [up, [0.0; 3], up, up, up]);
+    assert_eq!(mesh.uvs[0], [0.75, 0.25]);
+    assert_eq!(mesh.triangles, [[0, 1, 2], [0, 2, 3], [3, 2, 4]]);
+    for ends in ["\r\n", "\r"] {
+        assert_eq!(read(&TEXT.replace('\n', ends)), mesh);
+    }
+    assert_eq!(read(TEXT.trim_end()), mesh);
+}
+
+/// The same in binary.
+fn binary(big_endian: bool) -> Vec<u8> {
+    let format = if big_endian { "binary_big_endian" } else { "binary_little_endian" };
+    let end = TEXT.find("end_header\n").unwrap() + "end_header\n".len();
+    let mut bytes = TEXT[..end].replace("ascii", format).into_bytes();
+    let mut put = |value: &str, kind: &str| {
+        let number: f64 = value.parse().unwrap();
+        let mut raw = match kind {
+            "uchar" => vec![number as u8],
+            "char" => vec![number as i8 as u8],
+            "short" => (number as i16).to_le_bytes().to_vec(),
+            "int" => (number as i32).to_le_bytes().to_vec(),
+            "uint" => (number as u32).to_le_bytes().to_vec(),
+            "float" => (number as f32).to_le_bytes().to_vec(),
+            _ => number.to_le_bytes().to_vec(),
+        };
+        if big_endian {
+            raw.reverse();
+        }
+        bytes.extend(raw);
+    };
+    let mut words = TEXT[end..].split_ascii_whitespace();
+    let mut row = |kinds: &[&str]| {
+        for kind in kinds {
+            let word = words.next().unwrap();
+            match kind.strip_prefix("list ") {
+                None => put(word, kind),
+                Some(item) => {
+                    put(word, "uchar");
+                    (0..word.parse().unwrap()).for_each(|_| put(words.next().unwrap(), item));
+                }
+            }
+        }
+    };
+    row(&["list float", "int"]);
+    (0..5).for_each(|_| row(&["float", "double", "short", "float", "list char", "float", "float", "float", "float"]));
+    (0..3).for_each(|_| row(&["uchar", "list uint", "list float"]));
+    row(&["int"]);
+    bytes
+}
+
+#[test]
+fn binary_is_the_same() {
+    for big_endian in [false, true] {
+        let mesh = read_ply_bytes("a.ply", &binary(big_endian)).unwrap_or_else(|e| panic!("{e}"));
+        assert_eq!(mesh.triangles, read(TEXT).triangles);
+        assert_eq!(mesh.vertices, read(TEXT).vertices);
+        assert_eq!(mesh.normals, read(TEXT).normals);
+        assert_eq!(mesh.uvs, read(TEXT).uvs);
+    }
+}
+
+const HEAD: &str = "ply\nformat ascii 1.0\nelement vertex 4\nproperty float x\nproperty float y\nproperty float z\n";
+const FOUR: &str = "0 0 0\n1 0 0\n0 1 0\n1 1 0\n";
+
+#[test]
+fn strips() {
+    let strips = "element tristrips 1\nproperty list int int vertex_indices\nend_header\n";
+    let mesh = read(&format!("{HEAD}{strips}{FOUR}11 0 1 2 3 -1 3 2 1 -1 0 0\n"));
+    assert_eq!(mesh.triangles, [[0, 1, 2], [2, 1, 3], [3, 2, 1]]);
+}
+
+#[test]
+fn faces_may_come_first() {
+    let text = "ply\nformat ascii 1.0\nelement face 1\nproperty list int int vertex_index\nelement vertex 3\n\
+        property float x\nproperty float y\nproperty float z\nend_header\n3 0 1 2\n0 0 0\n1 0 0\n0 1 0\n";
+    assert_eq!(read(text).triangles, [[0, 1, 2]]);
+}
+
+#[test]
+fn mistakes_have_their_place() {
+    let face = "element face 1\nproperty list uchar int vertex_indices\nend_header\n";
+    for (text, said, at) in [
+        (String::new(), "no PLY file", At::Line(1)),
+        ("solid\n".to_owned(), "no PLY file", At::Line(1)),
+        (HEAD.to_owned(), "no `end_header`", At::File),
+        (HEAD.replace("ascii", "text"), "unknown format `text`", At::Line(2)),
+        (HEAD.replace("vertex 4", "vertex -4"), "`-4` is no number", At::Line(3)),
+        (HEAD.replace("float y", "real y"), "unknown type `real`", At::Line(5)),
+        (HEAD.replace("element", "elephant"), "`elephant`", At::Line(3)),
+        (format!("{HEAD}end_header\n{FOUR}"), "no faces", At::File),
+        (format!("{HEAD}element vertex 1\n{face}"), "two elements are named `vertex`", At::Line(7)),
+        (format!("{HEAD}{face}{FOUR}").replace("float y", "float w"), "no numbers `x`, `y` and `z`", At::Line(3)),
+        (format!("{HEAD}{face}{FOUR}3 0 1 2").replace("indices", "numbers"), "no list `vertex_indices`", At::Line(7)),
+        (format!("{HEAD}{face}{FOUR}3 0 1 4"), "there is no vertex 4", At::Line(14)),
+        (format!("{HEAD}{face}{FOUR}3 0 1\n-1"), "there is no vertex -1", At::Line(14)),
+        (format!("{HEAD}{face}{FOUR}3 0 1 0.5"), "there is no vertex 0.5", At::Line(14)),
+        (format!("{HEAD}{face}{FOUR}-3 0 1 2"), "cannot have -3 items", At::Line(13)),
+        (format!("{HEAD}{face}{FOUR}3 0 1"), "cut off", At::Line(14)),
+        (format!("{HEAD}{face}{FOUR}").replace("1 1 0", "1 x 0"), "`x` is no number", At::Line(13)),
+        (format!("{HEAD}{face}{FOUR}").replace("1 1 0", "1 1e99 0"), "not finite", At::Line(13)),
+        (format!("{HEAD}{face}{FOUR}").replace("vertex 4", "vertex 4000000000"), "too short", At::Line(10)),
+        (format!("{HEAD}{face}{FOUR}").replace("vertex 4", "vertex 99999999999999"), "too many", At::File),
+    ] {
+        let found = flaw(read_ply_bytes("a.ply", text.as_bytes()).expect_err(&text), text.as_bytes());
+        // Where the next value would be, lines of numbers may differ by one.
+        let close = match (found.at, at) {
+            (At::Line(a), At::Line(b)) => a.abs_diff(b) <= 1,
+            (a, b) => a == b,
+        };
+        assert!(found.message.contains(said) && close, "{found}\n{text}");
+    }
+}
+
+#[test]
+fn truncated() {
+    // What follows the faces is not read.
+    let unread = |bytes: &[u8]| bytes.len() - 4;
+    for big_endian in [false, true] {
+        let bytes = binary(big_endian);
+        for end in 0..unread(&bytes) {
+            assert!(try_ply(&bytes[..end]).is_none(), "cut at {end} of {}", bytes.len());
+        }
+    }
+    for end in 0..TEXT.len() - 5 {
+        assert!(try_ply(&TEXT.as_bytes()[..end]).is_none(), "cut at {end}");
+    }
+}
+
+#[test]
+fn promises_are_not_believed() {
+    for elements in ["vertex 4294967295", "face 4294967295", "camera 18446744073709551615", "tristrips 9999999999"] {
+        let name = elements.split_once(' ').unwrap().0;
+        for bytes in [binary(false), binary(true), TEXT.as_bytes().to_vec()] {
+            let text = String::from_utf8_lossy(&bytes[..600]).into_owned();
+            let Some(start) = text.find(&format!("element {name} ")) else { continue };
+            let end = start + text[start..].find('\n').unwrap();
+            let lying = [&bytes[..start], b"element ", elements.as_bytes(), &bytes[end..]].concat();
+            assert!(try_ply(&lying).is_none(), "{elements}");
+        }
+    }
+    // Elements without properties take no bytes, and no time.
+    let nothing = TEXT.replace("element vertex", "element nothing 18446744073709551615\nelement vertex");
+    assert_eq!(read(&nothing), read(TEXT));
+}
+
+#[test]
+fn good_ones() {
+    let mut read = 0;
+    for path in ["meshes", "mitsuba", "pbrt"].into_iter().flat_map(corpus).filter(|p| has_ending(p, "ply")) {
+        match read_ply(&path) {
+            Ok(mesh) => assert!(!mesh.triangles.is_empty() && !mesh.vertices.is_empty(), "{}", path.display()),
+            Err(error) => assert!(path.ends_with("points.ply"), "{error}"),
+        }
+        read += 1;
+    }
+    println!("{read} files");
+}
+
+#[test]
+fn bad_ones() {
+    for path in corpus("bad").into_iter().filter(|p| has_ending(p, "ply")) {
+        let error = try_ply(&std::fs::read(&path).unwrap());
+        assert!(error.is_none(), "{}", path.display());
+    }
+}
+
+proptest! {
+    #![proptest_config(ProptestConfig {
+        cases: 2000,
+        failure_persistence: None,
+        rng_seed: prop::test_runner::RngSeed::Fixed(1),
+        ..ProptestConfig::default()
+    })]
+
+    #[test]
+    fn with_some_bytes_changed(
+        kind in 0..3_usize,
+        changes in prop::collection::vec((any::<prop::sample::Index>(), any::<u8>()), 1..4),
+    ) {
+        let [little, big, text] = [binary(false), binary(true), TEXT.as_bytes().to_vec()];
+        let mut bytes = match kind { 0 => little, 1 => big, _ => text };
+        for (at, byte) in changes {
+            let at = at.index(bytes.len());
+            bytes[at] = byte;
+        }
+        try_ply(&bytes);
+    }
+}
