@@ -2,7 +2,8 @@
 //!
 //! A group is split by a plane so that Kᵣ (cost(left) + cost(right)) is least, where
 //! cost = intensity · solid angle of the emission · size, and Kᵣ, the group's longest extent over that along the
-//! plane's axis, keeps groups from getting thin. Along each axis twelve bins are tried. O(n log n).
+//! plane's axis, keeps groups from getting thin. Along each axis twelve bins are tried. Of a large group some lights
+//! stand for all in the bins, so the time goes to sorting the lights from plane to plane: O(n log n).
 //!
 //! Conty Estevez & Kulla 2018, doi:10.1145/3233305, §4.1; Pharr, Jakob & Humphreys 2023, §12.6.3.
 
@@ -25,26 +26,23 @@ pub(super) fn tree(lights: impl Iterator<Item = Option<Cluster>>) -> Tree {
     }
     if !items.is_empty() {
         tree.pairs.reserve_exact(items.len() - 1);
-        tree.root = Some(grow(&mut tree, &mut items, 0, 0));
+        tree.root = Some(grow(&mut tree, &mut items, 0, 0).0);
     }
     tree
 }
 
-/// The node of some lights, one at least. Recursion ends at [`Tree::MAX_DEPTH`].
-fn grow(tree: &mut Tree, items: &mut [Item], trail: u64, depth: u32) -> Node {
-    let emitter = around(items.iter().map(|item| item.cluster)).emitter();
-    if let [item] = items {
-        tree.trails[item.index as usize] = trail;
-        return Node { emitter, link: Link::Light(item.index) };
+/// The node of some lights, one at least, and their bounds. Recursion ends at [`Tree::MAX_DEPTH`].
+fn grow(tree: &mut Tree, items: &mut [Item], trail: u64, depth: u32) -> (Node, Cluster) {
+    if let [Item { cluster, index }] = *items {
+        tree.trails[index as usize] = trail;
+        return (Node { emitter: cluster.emitter(), link: Link::Light(index) }, cluster);
     }
     let (left, right) = split(items, Tree::MAX_DEPTH - depth - 1);
-    let children = [grow(tree, left, trail, depth + 1), grow(tree, right, trail | 1 << depth, depth + 1)];
-    tree.pairs.push(children);
-    Node { emitter, link: Link::Pair(tree.pairs.len() as u32 - 1) }
-}
-
-fn around(clusters: impl Iterator<Item = Cluster>) -> Cluster {
-    clusters.reduce(Cluster::union).expect("a node has a light")
+    let (left, left_cluster) = grow(tree, left, trail, depth + 1);
+    let (right, right_cluster) = grow(tree, right, trail | 1 << depth, depth + 1);
+    let cluster = left_cluster.union(right_cluster);
+    tree.pairs.push([left, right]);
+    (Node { emitter: cluster.emitter(), link: Link::Pair(tree.pairs.len() as u32 - 1) }, cluster)
 }
 
 /// Two parts, neither of them empty, that fit into trees of `levels` levels.
@@ -60,8 +58,8 @@ fn split(items: &mut [Item], levels: u32) -> (&mut [Item], &mut [Item]) {
 /// Sorts half of the lights before the other, along the longest axis; returns where the second half begins.
 fn halve(items: &mut [Item]) -> usize {
     let middle = items.len() / 2;
-    let axes = Axis::all(items);
-    let longest = axes[1..].iter().fold(&axes[0], |a, b| if b.hi - b.lo > a.hi - a.lo { b } else { a }).axis;
+    let [x, y, z] = Axis::all(items);
+    let longest = [y, z].into_iter().fold(x, |a, b| if b.extent() > a.extent() { b } else { a }).axis;
     items.select_nth_unstable_by(middle, |a, b| {
         a.cluster.center2(longest).total_cmp(&b.cluster.center2(longest)).then(a.index.cmp(&b.index))
     });
@@ -81,6 +79,8 @@ fn partition(items: &mut [Item], is_first: impl Fn(&Item) -> bool) -> usize {
 }
 
 const BINS: usize = 12;
+/// So many lights at most decide on a plane.
+const DELEGATES: usize = 256;
 
 /// The range of the (doubled) centres along an axis, to be cut into bins.
 #[derive(Clone, Copy)]
@@ -102,29 +102,31 @@ impl Axis {
         axes
     }
 
+    fn extent(&self) -> f32 {
+        self.hi - self.lo
+    }
+
     fn bin(&self, item: &Item) -> usize {
-        let share = (item.cluster.center2(self.axis) - self.lo) / (self.hi - self.lo);
+        let share = (item.cluster.center2(self.axis) - self.lo) / self.extent();
         ((share * BINS as f32) as usize).min(BINS - 1)
     }
 }
 
-/// The plane of least cost: the axis, and the first bin behind it. `None` where all lights have the same centre.
+/// The plane of least cost: the axis, and the first bin behind it. `None` where all lights have the same centre, and for
+/// two, which have only one way to go.
 fn cheapest(items: &[Item]) -> Option<(Axis, usize)> {
     if items.len() == 2 {
         return None;
     }
-    let (lo, hi) = items.iter().fold((items[0].cluster.lo, items[0].cluster.hi), |(lo, hi), item| {
-        (lo.min(item.cluster.lo), hi.max(item.cluster.hi))
-    });
-    let extent = hi - lo;
+    let axes = Axis::all(items);
+    let longest = axes.iter().map(Axis::extent).fold(0.0, f32::max);
     let mut best = (f64::INFINITY, None);
-    for axis in Axis::all(items).into_iter().filter(|axis| axis.hi > axis.lo) {
+    for axis in axes.into_iter().filter(|axis| axis.hi > axis.lo) {
         let mut bins = [None; BINS];
-        for item in items {
-            let bin = &mut bins[axis.bin(item)];
-            *bin = join(*bin, Some(item.cluster));
+        for item in items.iter().step_by(items.len().div_ceil(DELEGATES)) {
+            add(&mut bins[axis.bin(item)], &item.cluster);
         }
-        let thinness = f64::from(extent.max_element()) / f64::from(extent[axis.axis]);
+        let thinness = f64::from(longest) / f64::from(axis.extent());
         for (bin, cost) in costs(&bins) {
             if thinness * cost < best.0 {
                 best = (thinness * cost, Some((axis, bin)));
@@ -134,28 +136,29 @@ fn cheapest(items: &[Item]) -> Option<(Axis, usize)> {
     best.1
 }
 
-fn join(a: Option<Cluster>, b: Option<Cluster>) -> Option<Cluster> {
-    match (a, b) {
-        (Some(a), Some(b)) => Some(a.union(b)),
-        _ => a.or(b),
+fn add(bin: &mut Option<Cluster>, cluster: &Cluster) {
+    match bin {
+        Some(bin) => *bin = bin.union(*cluster),
+        None => *bin = Some(*cluster),
     }
 }
 
 /// For each bin that can be the first of the right part, the cost of both parts.
 fn costs(bins: &[Option<Cluster>; BINS]) -> impl Iterator<Item = (usize, f64)> {
-    let mut right = [None; BINS];
+    let mut right = [0.0; BINS];
     let mut behind = None;
     for i in (1..BINS).rev() {
         // An empty bin changes nothing: a plane behind it is the same as one before it.
-        if bins[i].is_some() {
-            behind = join(bins[i], behind);
-            right[i] = behind.map(|cluster| cluster.cost());
+        if let Some(bin) = &bins[i] {
+            add(&mut behind, bin);
+            right[i] = behind.map_or(0.0, |cluster| cluster.cost());
         }
     }
     let mut left = bins[0];
     (1..BINS).filter_map(move |i| {
-        let cost = right[i].zip(left).map(|(right, left)| (i, left.cost() + right));
-        left = join(left, bins[i]);
+        let bin = bins[i].as_ref()?;
+        let cost = left.map(|left| (i, left.cost() + right[i]));
+        add(&mut left, bin);
         cost
     })
 }
