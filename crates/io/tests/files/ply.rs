@@ -189,6 +189,27 @@ fn promises_are_not_believed() {
 }
 
 #[test]
+fn a_million_triangles_are_read_soon() {
+    let (vertices, faces) = (650_000_u32, 1_300_000_u32);
+    let mut bytes = format!(
+        "ply\nformat binary_little_endian 1.0\nelement vertex {vertices}\nproperty float x\nproperty float y\n\
+         property float z\nelement face {faces}\nproperty list uchar int vertex_indices\nend_header\n"
+    )
+    .into_bytes();
+    (0..vertices * 3).for_each(|i| bytes.extend((i as f32).to_le_bytes()));
+    for i in 0..faces {
+        bytes.push(3);
+        [0, 1, 2].iter().for_each(|k| bytes.extend(((i + k) % vertices).to_le_bytes()));
+    }
+    let start = Instant::now();
+    let mesh = read_ply_bytes("a.ply", &bytes).unwrap();
+    println!("{:?}", start.elapsed());
+    assert_eq!(mesh.vertices[649_999], [1_949_997.0, 1_949_998.0, 1_949_999.0]);
+    assert_eq!(mesh.triangles[1_299_999], [649_999, 0, 1]);
+    assert!(start.elapsed() < Duration::from_secs(5), "{:?}", start.elapsed());
+}
+
+#[test]
 fn good_ones() {
     let mut read = 0;
     for path in ["meshes", "mitsuba", "pbrt"].into_iter().flat_map(corpus).filter(|p| has_ending(p, "ply")) {
