@@ -58,7 +58,7 @@ fn warnings(header: &Header, grey: bool) -> Vec<Warning> {
     if header.data_window() != header.shared_attributes.display_window {
         warnings.push(Warning::new("the picture's data window is not its display window: it is cut to its data"));
     }
-    if grey && ["RY", "BY"].iter().any(|n| header.channels.list.iter().any(|c| c.name.eq(*n))) {
+    if grey && ["RY", "BY"].iter().any(|n| header.channels.list.iter().any(|c| c.name.eq(n))) {
         warnings.push(Warning::new("the picture's colour differences RY and BY are ignored: it is grey"));
     }
     warnings

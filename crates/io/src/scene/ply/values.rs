@@ -8,7 +8,7 @@ pub(super) trait Values {
     /// The next one.
     fn next(&mut self, scalar: Scalar) -> Result<f64, FileError>;
 
-    /// Where it is.
+    /// Where that is.
     fn at(&self) -> At;
 
     /// Bytes that are left; a value takes one at least.
@@ -53,14 +53,16 @@ impl Values for Text<'_> {
         let value = std::str::from_utf8(word).ok().and_then(|word| word.parse().ok());
         value.ok_or_else(|| {
             if word.is_empty() {
-                return FileError::new("the file is cut off").at(self.at());
+                return FileError::new("the file is cut off").at(At::Line(self.line));
             }
-            FileError::new(format!("`{}` is no number", String::from_utf8_lossy(word))).at(self.at())
+            FileError::new(format!("`{}` is no number", String::from_utf8_lossy(word))).at(At::Line(self.line))
         })
     }
 
     fn at(&self) -> At {
-        At::Line(self.line)
+        let mut next = Self { ..*self };
+        next.skip_space();
+        At::Line(next.line)
     }
 
     /// The space after the last value may be missing.
