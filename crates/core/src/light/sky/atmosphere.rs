@@ -4,12 +4,12 @@
 //!
 //! - air molecules, exp(-h / 8 km), vertical optical thickness of Bodhaine et al. 1999,
 //!   doi:10.1175/1520-0426(1999)016<1854:ORODC>2.0.CO;2;
-//! - aerosol, exp(-h / 1.2 km), Ångström's β λ^-1.3 with β = 0.04608 T - 0.04586 for the turbidity T (Preetham, Shirley &
-//!   Smits 1999, doi:10.1145/311535.311545), nine tenths of it scattered;
+//! - aerosol, exp(-h / 1.2 km), Ångström's β λ^-1.3 with β = 0.04608 T - 0.04586 for the turbidity T (Preetham, Shirley
+//!   & Smits 1999, doi:10.1145/311535.311545), nine tenths of it scattered;
 //! - ozone, a tent from 10 to 40 km (Bruneton 2017, doi:10.1109/TVCG.2016.2622272), 300 Dobson units; it only absorbs.
 //!
-//! Transmittance along a ray is exp(-Σ k(λ) c), where c is the column of each along it. Columns up to the sun depend on the
-//! height and the sun's zenith angle only, and lie in a table with the coordinates of Bruneton & Neyret 2008,
+//! Transmittance along a ray is exp(-Σ k(λ) c), where c is the column of each along it. Columns up to the sun depend on
+//! the height and the sun's zenith angle only, and lie in a table with the coordinates of Bruneton & Neyret 2008,
 //! doi:10.1111/j.1467-8659.2008.01245.x. All lengths are km.
 
 use std::f64::consts::PI;
@@ -124,8 +124,8 @@ fn column(r: f64, mu: f64, count: usize) -> Amounts {
     })
 }
 
-/// Steps along a ray that are short where the air is dense: even in the square root of the distance from the ray's lowest
-/// point. Each is the place of its middle and its length.
+/// Steps along a ray that are short where the air is dense: even in the square root of the distance from the ray's
+/// lowest point. Each is the place of its middle and its length.
 pub(super) fn steps(r: f64, mu: f64, length: f64, count: usize) -> impl Iterator<Item = (f64, f64)> {
     let lowest = (-r * mu).clamp(0.0, length);
     let (start, end) = (-lowest.sqrt(), (length - lowest).sqrt());
@@ -163,8 +163,8 @@ fn longest_in_air() -> f64 {
     (TOP * TOP - GROUND * GROUND).sqrt()
 }
 
-/// Share of the sun's disk above the horizon, whose zenith angle has the sine GROUND / r: there that is the slope of the
-/// cosine, and the sun is small.
+/// Share of the sun's disk above the horizon, whose zenith angle has the sine GROUND / r: there that is the slope of
+/// the cosine, and the sun is small.
 fn visible_sun(r: f64, mu: f64) -> f64 {
     let x = (mu - horizon(r)) / (SUN_RADIUS * GROUND / r);
     if x.abs() >= 1.0 {

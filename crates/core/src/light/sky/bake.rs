@@ -15,8 +15,8 @@ use crate::film::Image;
 #[derive(Clone, Debug)]
 pub struct Sky {
     /// Radiance of all directions without the sun's disk, by latitude and longitude: the middle of pixel (x, y) of
-    /// w × h is the direction (sin φ sin θ, cos θ, -cos φ sin θ) with φ = 2π (x + ½) / w and θ = π (y + ½) / h. Row 0 is
-    /// straight above, the first column looks along -Z, a quarter further is +X. The horizon lies between two rows.
+    /// w × h is the direction (sin φ sin θ, cos θ, -cos φ sin θ) with φ = 2π (x + ½) / w and θ = π (y + ½) / h. Row 0
+    /// is straight above, the first column looks along -Z, a quarter further is +X. The horizon lies between two rows.
     pub image: Image,
     /// The sun, unless it has set or is switched off.
     pub sun: Option<SunDisk>,

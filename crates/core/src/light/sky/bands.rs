@@ -13,11 +13,12 @@ const WIDTH: f64 = 30.0;
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct Bands([f64; COUNT]);
 
-/// The sun's irradiance outside of the atmosphere, W / (m² nm): means of ASTM G173-03 (2020), doi:10.1520/G0173-03R20.
+/// The sun's irradiance outside of the atmosphere, W / (m² nm): ASTM G173-03, doi:10.1520/G0173-03R20, means of the
+/// bins of 10 nm in Bruneton 2017, doi:10.1109/TVCG.2016.2622272.
 pub(super) const SOLAR: Bands =
     Bands([1.101, 1.716, 1.853, 1.992, 1.902, 1.871, 1.840, 1.783, 1.675, 1.561, 1.478, 1.373]);
 
-/// Ozone's cross-section at 233 K, 1e-25 m²: means of Serdyuchenko et al. 2014, doi:10.5194/amt-7-625-2014.
+/// Ozone's cross-section at 233 K, 1e-25 m²: Serdyuchenko et al. 2014, doi:10.5194/amt-7-625-2014, from the same bins.
 pub(super) const OZONE: Bands =
     Bands([0.003_879, 0.0327, 0.1581, 0.5448, 1.328, 2.662, 4.146, 4.706, 3.753, 2.251, 1.208, 0.6375]);
 
@@ -163,7 +164,7 @@ mod tests {
     #[test]
     fn colours_of_known_lights() {
         let observer = Observer::new();
-        // The sun outside: 133 klx (Darula, Kittler & Gueymard 2005, doi:10.1016/j.solener.2004.09.002, 133.1 to 133.8).
+        // The sun outside: 133 klx (133.1 to 133.8: Darula, Kittler & Gueymard 2005, Solar Energy 79).
         let [r, g, b] = observer.rgb(SOLAR);
         let lux = 0.2126 * r + 0.7152 * g + 0.0722 * b;
         assert!((lux / 133_400.0 - 1.0).abs() < 0.02, "{lux}");

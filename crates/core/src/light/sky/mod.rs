@@ -29,8 +29,8 @@ use crate::validate::{Checker, Problem};
 
 pub use bake::{Sky, SunDisk};
 
-/// A clear sky. The sun stands where one of `sun_direction`, `sun_elevation` with `sun_azimuth`, or `latitude`, `longitude`
-/// and `time` says; without any, 45° high in the south-east.
+/// A clear sky. The sun stands where one of `sun_direction`, `sun_elevation` with `sun_azimuth`, or `latitude`,
+/// `longitude` and `time` says; without any, 45° high in the south-east.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields, default)]
 pub struct SkyDesc {
@@ -62,8 +62,8 @@ pub struct SkyDesc {
     /// Share of light that the planet's ground reflects, 0..1.
     #[schemars(range(min = 0.0, max = 1.0))]
     pub ground_albedo: f32,
-    /// Factor on the radiance of sky and sun. At 1, radiance 1 is a luminance of 10 000 cd / m²; at 49.3 it is 1 W / (m² sr)
-    /// of light that is even over the visible 370 to 730 nm.
+    /// Factor on the radiance of sky and sun. At 1, radiance 1 is a luminance of 10 000 cd / m²; at 49.3 it is 1 W /
+    /// (m² sr) of light that is even over the visible 370 to 730 nm.
     #[schemars(range(min = 0.0))]
     pub scale: f32,
     /// Factor on the radiance of the sun's disk alone; 0 leaves only the sky.

@@ -4,13 +4,15 @@
 //!
 //! L = p_m(γ) ∫ T σ_m V dt + p_a(γ) ∫ T σ_a V dt + ∫ T (σ_m + σ_a) Ψ dt,
 //!
-//! T the transmittance to the eye, V the sunlight that arrives, σ_m and σ_a the scattering of molecules and aerosol, Ψ what
-//! arrives after two scatterings or more. γ is the same all along the ray, so the phase functions p stay outside:
-//! molecules' is Rayleigh's, aerosol's that of Cornette & Shanks 1992, doi:10.1364/AO.31.003152, with asymmetry parameter 0.7.
+//! T the transmittance to the eye, V the sunlight that arrives, σ_m and σ_a the scattering of molecules and aerosol, Ψ
+//! what arrives after two scatterings or more. γ is the same all along the ray, so the phase functions p stay outside:
+//! molecules' is Rayleigh's, aerosol's that of Cornette & Shanks 1992, doi:10.1364/AO.31.003152, with asymmetry
+//! parameter 0.7.
 //!
-//! Ψ is that of Hillaire 2020, doi:10.1111/cgf.14050: scattering from the second on is taken as equal in all directions and
-//! the light around a point as equal all over, so Ψ = L₂ / (1 - f), L₂ the twice scattered light (with the ground's), f the
-//! share of light that is scattered once more. It depends on the height and the sun's zenith angle only.
+//! Ψ is that of Hillaire 2020, doi:10.1111/cgf.14050: scattering from the second on is taken as equal in all directions
+//! and the light around a point as equal all over, so Ψ = L₂ / (1 - f), L₂ the twice scattered light (with the
+//! ground's), f the share of light that is scattered once more. It depends on the height and the sun's zenith angle
+//! only.
 
 use std::f64::consts::{PI, TAU};
 
@@ -19,7 +21,8 @@ use glam::DVec3;
 use super::atmosphere::{Atmosphere, GROUND, TOP, between, density, radius_after, steps, way_to_ground, way_to_top};
 use super::bands::Bands;
 
-/// What a ray collects from a sun of unit irradiance. By what it was scattered last, if once; phase functions are missing.
+/// What a ray collects from a sun of unit irradiance. By what it was scattered last, if once; phase functions are
+/// missing.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Inscatter {
     /// Once, by molecules.
@@ -45,8 +48,8 @@ impl Scattering {
     const MULTIPLE_STEPS: usize = 16;
     const VIEW_STEPS: usize = 32;
 
-    /// The most by which the sun's zenith angle changes along a ray from the ground: out of the air along the horizon are
-    /// 1132 km, seen from the planet's middle 10.2°.
+    /// The most by which the sun's zenith angle changes along a ray from the ground: out of the air along the horizon
+    /// are 1132 km, seen from the planet's middle 10.2°.
     const ZENITH_RANGE: f64 = 10.5 * PI / 180.0;
 
     /// For a turbidity, a grey albedo of the ground, and the cosine of the sun's zenith angle on the ground.

@@ -71,7 +71,8 @@ mod tests {
 
     #[test]
     fn case_of_the_solar_position_algorithm() {
-        // Reda & Andreas 2004, doi:10.1016/j.solener.2003.12.003, table A5.1: zenith 50.11162° with refraction of 0.016°.
+        // Reda & Andreas 2004, doi:10.1016/j.solener.2003.12.003, table A5.1: zenith 50.11162° with refraction of
+        // 0.016°.
         let (elevation, azimuth) = elevation_azimuth("2003-10-17T12:30:30-07:00", 39.742_476, -105.178_6);
         assert!((elevation - 39.872).abs() < 0.01, "{elevation}");
         assert!((azimuth - 194.340_24).abs() < 0.01, "{azimuth}");
@@ -79,8 +80,8 @@ mod tests {
 
     #[test]
     fn seasons() {
-        // Equinox of March 2026, 20th 14:46 UTC: over the equator where it is noon, 2 h 46 min west of Greenwich, less the
-        // equation of time, 7.4 minutes.
+        // Equinox of March 2026, 20th 14:46 UTC: over the equator where it is noon, 2 h 46 min west of Greenwich, less
+        // the equation of time, 7.4 minutes.
         let (elevation, _) = elevation_azimuth("2026-03-20T14:46:00Z", 0.0, -41.5 + 1.85);
         assert!(elevation > 89.9, "{elevation}");
         // Solstices of 2026: over the tropics at 23.436°, and due south from London at 90° - 51.48° ± 23.436°.

@@ -57,8 +57,8 @@ fn as_much_light_as_measured() {
 
 #[test]
 fn half_of_what_the_sun_loses_comes_down() {
-    // Without haze, on black ground and in blue, where ozone takes little: molecules scatter as much forward as back, and of
-    // what goes up a little more escapes than of what comes down.
+    // Without haze, on black ground and in blue, where ozone takes little: molecules scatter as much forward as back,
+    // and of what goes up a little more escapes than of what comes down.
     let desc = SkyDesc { ground_albedo: 0.0, ..eastern(60.0, 1.0) };
     let sky = Sky::bake(&desc);
     let outside = bands::Observer::new().rgb(bands::SOLAR)[2] / 10_000.0;

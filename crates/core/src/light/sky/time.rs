@@ -93,7 +93,8 @@ fn days_of_month(year: i32, month: i32) -> i32 {
     }
 }
 
-/// Days since 1 January 2000 in the Gregorian calendar. The year is taken to begin in March, so that a leap day is its last.
+/// Days since 1 January 2000 in the Gregorian calendar. The year is taken to begin in March, so that a leap day is its
+/// last.
 fn day_number(year: i32, month: i32, day: i32) -> i32 {
     let (year, month) = if month > 2 { (year, month - 3) } else { (year - 1, month + 9) };
     let leap_days = year.div_euclid(4) - year.div_euclid(100) + year.div_euclid(400);
