@@ -8,6 +8,7 @@ mod lat_long;
 mod lights;
 mod point;
 pub mod select;
+pub mod sky;
 mod spot;
 
 use glam::Vec3;
