@@ -279,7 +279,7 @@ impl Textbook {
         let background = match &desc.environment {
             EnvironmentDesc::Gradient(g) => Background { bottom: g.bottom.0.into(), top: g.top.0.into() },
             EnvironmentDesc::Constant(k) => Background { bottom: k.radiance.0.into(), top: k.radiance.0.into() },
-            EnvironmentDesc::Image(_) | EnvironmentDesc::None(_) => {
+            EnvironmentDesc::Image(_) | EnvironmentDesc::Sky(_) | EnvironmentDesc::None(_) => {
                 return Err("the book has no other light than its sky".to_owned());
             }
         };

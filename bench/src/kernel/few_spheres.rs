@@ -81,7 +81,10 @@ pub(crate) fn record(desc: &SceneDesc, width: u32) -> Result<Vec<Ray>, String> {
         for _ in 0..desc.render.max_depth {
             let Some(ray) = next else { break };
             rays.push(ray);
-            next = scene.intersect(&ray).and_then(|si| si.scatter(&si.bsdf(), &mut sampler)).map(|(_, scattered)| scattered);
+            next = scene
+                .intersect(&ray)
+                .and_then(|si| si.scatter(&si.bsdf(), &mut sampler))
+                .map(|(_, scattered)| scattered);
         }
     }
     Ok(rays)

@@ -90,8 +90,9 @@ impl Scene {
             });
         }
         lights.extend(desc.light.near());
-        let far = desc.light.far().collect();
-        let lights = Lights::new(lights, desc.render.light_selection, desc.environment.compile(), far);
+        let (environment, sun) = desc.environment.compile();
+        let far = desc.light.far().chain(sun).collect();
+        let lights = Lights::new(lights, desc.render.light_selection, environment, far);
         let bvh = match acceleration {
             Acceleration::Auto => Bvh::build(&primitives, Quality::auto(expected_rays(desc), primitives.len())),
             Acceleration::Tree(quality) => Bvh::build(&primitives, quality),

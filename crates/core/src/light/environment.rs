@@ -14,7 +14,9 @@ use serde::{Deserialize, Serialize};
 
 use crate::color::{Rgb, Spectrum};
 use crate::film::Image;
+use crate::light::directional::Disk;
 use crate::light::lat_long::LatLong;
+use crate::light::sky::{Sky, SkyDesc, SunDisk};
 use crate::validate::Checker;
 
 /// The environment as a scene states it: `[environment.KIND]`.
@@ -27,6 +29,8 @@ pub enum EnvironmentDesc {
     Constant(Constant),
     /// A picture of latitude and longitude.
     Image(ImageEnvironment),
+    /// A clear sky with its sun.
+    Sky(SkyDesc),
     /// No light: only surfaces and lights shine.
     None(NoLight),
 }
@@ -106,20 +110,32 @@ impl EnvironmentDesc {
                 c.in_range("rotation", i.rotation, -1e4, 1e4);
                 c.in_range("scale", i.scale, 0.0, 1e9);
             }),
+            Self::Sky(sky) => c.within("sky", |c| sky.check(c)),
             Self::None(NoLight {}) => {}
         }
     }
 
-    pub(crate) fn compile(&self) -> Environment {
-        match self {
+    /// What is all around, and the sun in it.
+    pub(crate) fn compile(&self) -> (Environment, Option<Disk>) {
+        let environment = match self {
             Self::Gradient(g) => Environment::Gradient { bottom: g.bottom.into(), top: g.top.into() },
             Self::Constant(k) => Environment::Constant(k.radiance.into()),
             Self::Image(i) => match &i.image {
                 Some(image) => Environment::Image(LatLong::new(image.clone(), i.rotation.to_radians(), i.scale, true)),
                 None => Environment::Constant(Spectrum::BLACK),
             },
+            Self::Sky(sky) => {
+                let Sky { image, sun } = Sky::bake(sky);
+                let disk = |sun: SunDisk| {
+                    let sin = libm::sinf(sun.angular_radius);
+                    let irradiance = Spectrum::from(sun.radiance) * (std::f32::consts::PI * sin * sin);
+                    Disk::new(sun.direction, 2.0 * sun.angular_radius, irradiance)
+                };
+                return (Environment::Image(LatLong::new(Arc::new(image), 0.0, 1.0, true)), sun.map(disk));
+            }
             Self::None(NoLight {}) => Environment::Constant(Spectrum::BLACK),
-        }
+        };
+        (environment, None)
     }
 }
 

@@ -9,7 +9,7 @@
 //! Ernst, Stamminger & Greiner 2006, "Filter Importance Sampling", doi:10.1109/RT.2006.280221. All filters are products
 //! of a function of x and the same of y, even, and 0 beyond their radius.
 //!
-//! ```text
+//! ```toml
 //! [render.filter.gaussian]
 //! radius = 1.5
 //! sigma = 0.5

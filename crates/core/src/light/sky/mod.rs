@@ -5,7 +5,7 @@
 //! `atmosphere`); Hillaire, "A Scalable and Production Ready Sky and Atmosphere Rendering Technique", 2020,
 //! doi:10.1111/cgf.14050. The result is a picture (`bake`) and, as a light of its own, the sun's disk.
 //!
-//! ```text
+//! ```toml
 //! [environment.sky]
 //! latitude = 48.2
 //! longitude = 16.37
@@ -25,7 +25,7 @@ use schemars::JsonSchema;
 use serde::{Deserialize, Deserializer, Serialize};
 
 use crate::array::array;
-use crate::validate::{Checker, Problem};
+use crate::validate::Checker;
 
 pub use bake::{Sky, SunDisk};
 
@@ -99,13 +99,6 @@ impl Default for SkyDesc {
 impl SkyDesc {
     /// Elevation and azimuth of a sun that nothing is said about, degrees.
     const SUN: (f32, f32) = (45.0, 135.0);
-
-    /// Everything that is wrong; a sky can be baked if nothing is.
-    pub fn problems(&self) -> Vec<Problem> {
-        let mut c = Checker::default();
-        self.check(&mut c);
-        c.into_problems()
-    }
 
     pub(crate) fn check(&self, c: &mut Checker) {
         self.check_ways(c);
