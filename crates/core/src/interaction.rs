@@ -96,7 +96,9 @@ impl<'s> SurfaceInteraction<'s> {
                 let o = self.point.ray_origin(self.wo_world, light.wi);
                 let to = target - o;
                 let distance = to.length();
-                Ray { t_max: distance, ..Ray::new(o, to / distance) }
+                // Neither the distance nor the length of the direction is exact.
+                let t_max = distance * (1.0 - 8.0 * f32::EPSILON);
+                Ray { t_max, ..Ray::new(o, to / distance) }
             }
         }
     }

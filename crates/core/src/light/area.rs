@@ -180,3 +180,92 @@ fn cone(center: Vec3, radius: f32, p: Vec3) -> Option<SphereCone> {
     let margin = 1e-5 * radius + 4.0 * f32::EPSILON * (p.abs().max(center.abs())).max_element();
     (p.distance(center) > radius + margin).then(|| SphereCone::new(center, radius, p))?
 }
+
+#[cfg(test)]
+mod tests {
+    use eyebeam_bvh::{Quad, Sphere, Triangle};
+    use glam::UVec2;
+
+    use super::*;
+    use crate::sampler::Independent;
+
+    fn numbers(i: u32) -> Vec2 {
+        Independent::new(1, UVec2::ZERO, i).get_2d()
+    }
+
+    fn light(primitive: Primitive) -> AreaLight {
+        AreaLight::new(&primitive, Spectrum::ONE, true).unwrap()
+    }
+
+    /// Inside a box of lamps the irradiance of a point of a wall is π, whichever wall: what all samples make of it.
+    #[test]
+    fn walls_around_a_point_send_all_light_there_is() {
+        const N: u32 = 100_000;
+        let (lo, hi) = (Vec3::new(-0.25, -0.75, -0.25), Vec3::new(0.75, 0.5, 1.0));
+        let p = Vec3::new(0.75, 0.2, 0.3);
+        let wall = |axis: usize, corner: Vec3| {
+            let corner = Vec3::from_array(std::array::from_fn(|i| if i == axis { corner[i] } else { lo[i] }));
+            let edge = |axis: usize| Vec3::AXES[axis] * (hi - lo)[axis];
+            Quad { corner, u: edge((axis + 1) % 3), v: edge((axis + 2) % 3) }
+        };
+        let walls = (0..3).flat_map(|axis| [wall(axis, lo), wall(axis, hi)]);
+        let halves = |q: Quad| {
+            let (a, b, c, d) = (q.corner, q.corner + q.u, q.corner + q.u + q.v, q.corner + q.v);
+            [Triangle { a, b, c }, Triangle { a, b: c, c: d }].map(Primitive::Triangle)
+        };
+        let slanted = |q: Quad| Primitive::Quad(Quad { v: q.v + 1e-4 * q.u, ..q });
+        let ways: [Vec<Primitive>; 3] = [
+            walls.clone().map(Primitive::Quad).collect(),
+            walls.clone().flat_map(halves).collect(),
+            walls.map(slanted).collect(),
+        ];
+        for walls in ways {
+            let mut irradiance = 0.0;
+            for light in walls.into_iter().map(light) {
+                for sample in (0..N).filter_map(|i| light.sample(p, numbers(i))) {
+                    irradiance += f64::from(sample.wi.dot(Vec3::NEG_X).max(0.0) / sample.pdf) / f64::from(N);
+                }
+            }
+            assert!((irradiance / std::f64::consts::PI - 1.0).abs() < 3e-3, "{irradiance}");
+        }
+    }
+
+    /// A sample's density is that of its direction, from near and far, from inside and outside.
+    #[test]
+    fn samples_know_their_density() {
+        let center = Vec3::new(0.3, 0.2, -0.1);
+        let lights = [
+            Primitive::Sphere(Sphere { center, radius: 0.5 }),
+            Primitive::Quad(Quad { corner: center, u: Vec3::X, v: Vec3::new(0.0, 0.5, 0.5) }),
+            Primitive::Quad(Quad { corner: center, u: Vec3::X, v: Vec3::new(0.4, 0.5, 0.5) }),
+            Primitive::Triangle(Triangle { a: center, b: center + Vec3::X, c: center + Vec3::new(0.2, 0.9, 0.0) }),
+        ]
+        .map(light);
+        for (k, light) in lights.iter().enumerate() {
+            for (i, distance) in [0.01, 0.3, 2.0, 50.0, 1e4].into_iter().cycle().take(2000).enumerate() {
+                let p = center + distance * uniform_sphere(numbers(i as u32));
+                let Some(sample) = light.sample(p, numbers(7 * i as u32 + 1)) else { continue };
+                let Target::On(point) = sample.target else { panic!("it is somewhere") };
+                let pdf = light.pdf(p, point);
+                assert!((pdf / sample.pdf - 1.0).abs() < 0.02, "light {k} from {p}: {pdf}, not {}", sample.pdf);
+                assert!((point - p).normalize().dot(sample.wi) > 0.999, "light {k} from {p}");
+            }
+        }
+    }
+
+    /// From behind, nothing; from both sides, if it is said so.
+    #[test]
+    fn lamps_shine_forwards() {
+        let floor = Primitive::Quad(Quad { corner: Vec3::ZERO, u: Vec3::Z, v: Vec3::X });
+        for (primitive, outside) in
+            [(floor, Vec3::Y), (Primitive::Sphere(Sphere { center: Vec3::ZERO, radius: 0.9 }), Vec3::Y)]
+        {
+            let inside = Vec3::new(0.3, -0.1, 0.3);
+            for two_sided in [false, true] {
+                let light = AreaLight::new(&primitive, Spectrum::ONE, two_sided).unwrap();
+                assert!(light.sample(outside, Vec2::splat(0.4)).is_some());
+                assert_eq!(light.sample(inside, Vec2::splat(0.4)).is_some(), two_sided);
+            }
+        }
+    }
+}

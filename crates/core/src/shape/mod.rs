@@ -8,7 +8,7 @@ mod smooth;
 mod sphere;
 
 use eyebeam_bvh::{Bvh, Hit, Primitive, Ray, Surface};
-use glam::{DVec3, Vec2, Vec3};
+use glam::{DVec2, DVec3, Vec2, Vec3};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
@@ -130,9 +130,24 @@ impl SurfacePoint {
     /// From a point of the plane that two edges from `corner` span.
     #[inline]
     pub(crate) fn on_plane(corner: DVec3, edges: [DVec3; 2], uv: Vec2) -> Self {
-        let n = edges[0].cross(edges[1]).normalize_or_zero().as_vec3();
-        let p = corner + edges[0] * f64::from(uv.x) + edges[1] * f64::from(uv.y);
-        let reach = corner.abs().max(edges[0].abs()).max(edges[1].abs()).max_element();
-        Self::rounded(p, reach, n)
+        let normal = edges[0].cross(edges[1]);
+        let area = normal.length();
+        let n = if area > 0.0 { (normal / area).as_vec3() } else { Vec3::ZERO };
+        let [u, v] = edges.map(|e| e.abs());
+        let reach = corner.abs().max(u).max(v).max_element();
+        // Twice as far as the point may be off, in edges of the shape.
+        let margin = 4.0 * f64::from(f32::EPSILON) * reach * (u + v).element_sum() / area;
+        let uv = inset(uv.as_dvec2(), margin.min(1e-4));
+        Self::rounded(corner + edges[0] * uv.x + edges[1] * uv.y, reach, n)
     }
+}
+
+/// Moves what is nearer than `margin` to an edge of a triangle or quad away from it: otherwise rounding could put the point
+/// into or behind the surface that it meets there, and rays would leave a closed room.
+#[inline]
+fn inset(uv: DVec2, margin: f64) -> DVec2 {
+    let inner = uv.clamp(DVec2::splat(margin), DVec2::splat(1.0 - margin));
+    // The edge opposite to the corner, if it is a triangle; else a line like any other.
+    let beyond = inner.element_sum() - 1.0;
+    if beyond.abs() < margin { inner - 0.5 * (beyond + margin) } else { inner }
 }
