@@ -77,7 +77,7 @@ def main():
             pictures = []
             for seed in (1, 2):
                 out = folder / f"{scene}-{seed}.pfm"
-                command = [args.renderer, "peer", "--scene", args.scenes / f"{scene}.json", "--spp", str(args.spp)]
+                command = [args.renderer, "peer", "--threads", "2", "--scene", args.scenes / f"{scene}.json", "--spp", str(args.spp)]
                 subprocess.run([*command, "--seed", str(seed), "--out", out], check=True, stdout=subprocess.DEVNULL)
                 pictures.append(read_pfm(out))
             reference = np.load(args.references / f"{scene}.npz")["img"].astype(float)
