@@ -68,7 +68,7 @@ impl Path {
             scattered = (!sample.delta).then(|| Scattered { p: si.point().p, n: si.point().ns, pdf: sample.pdf });
             ray = next;
             // Russian roulette
-            let survival = (beta.max_component() * eta_sq).min(1.0);
+            let survival = Self::PATIENCE * beta.max_component() * eta_sq;
             if depth >= Self::CERTAIN_DEPTH && survival < 1.0 {
                 if sampler.get_1d() >= survival {
                     break;
@@ -79,6 +79,9 @@ impl Path {
         l
     }
 
+    /// Paths that carry more than one part of this of the light from their end are sure to go on. To end them sooner saves
+    /// few rays and costs much noise (docs/performance.md).
+    const PATIENCE: f32 = 4.0;
     /// Edges before the first that may be left out.
     const CERTAIN_DEPTH: u32 = 3;
 }

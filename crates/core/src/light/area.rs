@@ -107,7 +107,7 @@ impl AreaLight {
             FlatSampling::Area if flat.kind == Kind::Triangle => (uniform_triangle(u), None),
             FlatSampling::Area => (u, None),
         };
-        let point = SurfacePoint::on_plane(flat.corner.as_dvec3(), flat.edges.map(|e| e.as_dvec3()), uv);
+        let point = flat.point(uv);
         let to = point.p - p;
         let wi = to.try_normalize()?;
         let pdf = by_angle.unwrap_or_else(|| pdf_from_area(1.0 / flat.area, to.length_squared(), wi.dot(flat.n)));
@@ -156,6 +156,14 @@ impl Flat {
         let normal = edges[0].as_dvec3().cross(edges[1].as_dvec3());
         let share = if kind == Kind::Triangle { 0.5 } else { 1.0 };
         Self { kind, corner, edges, n: normal.normalize_or_zero().as_vec3(), area: share * normal.length() as f32 }
+    }
+
+    #[inline]
+    fn point(&self, uv: Vec2) -> SurfacePoint {
+        let (corner, uv) = (self.corner.as_dvec3(), uv.as_dvec2());
+        let [u, v] = self.edges.map(|e| e.as_dvec3());
+        let reach = corner.abs().max(u.abs()).max(v.abs()).max_element();
+        SurfacePoint::rounded(corner + u * uv.x + v * uv.y, reach, self.n)
     }
 
     #[inline]

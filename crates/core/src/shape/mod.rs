@@ -113,7 +113,7 @@ impl SurfacePoint {
     /// From a point that double precision has computed from lengths up to `reach`: rounding it to single precision is the
     /// larger error, except where coordinates are near 0.
     #[inline]
-    fn rounded(p: DVec3, reach: f64, n: Vec3) -> Self {
+    pub(crate) fn rounded(p: DVec3, reach: f64, n: Vec3) -> Self {
         /// What the point and the next intersection with the shape may be off, in double precision, relative to `reach`.
         const DOUBLE: f64 = 16.0 * f64::EPSILON;
         let p = p.as_vec3();
@@ -131,14 +131,14 @@ impl SurfacePoint {
     #[inline]
     pub(crate) fn on_plane(corner: DVec3, edges: [DVec3; 2], uv: Vec2) -> Self {
         let normal = edges[0].cross(edges[1]);
-        let area = normal.length();
-        let n = if area > 0.0 { (normal / area).as_vec3() } else { Vec3::ZERO };
+        // Nothing without area is ever hit.
+        let area_inv = 1.0 / normal.length();
         let [u, v] = edges.map(|e| e.abs());
         let reach = corner.abs().max(u).max(v).max_element();
         // Twice as far as the point may be off, in edges of the shape.
-        let margin = 4.0 * f64::from(f32::EPSILON) * reach * (u + v).element_sum() / area;
+        let margin = 4.0 * f64::from(f32::EPSILON) * reach * (u + v).element_sum() * area_inv;
         let uv = inset(uv.as_dvec2(), margin.min(1e-4));
-        Self::rounded(corner + edges[0] * uv.x + edges[1] * uv.y, reach, n)
+        Self::rounded(corner + edges[0] * uv.x + edges[1] * uv.y, reach, (normal * area_inv).as_vec3())
     }
 }
 

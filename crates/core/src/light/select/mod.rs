@@ -45,6 +45,8 @@ pub struct LightSelector {
 
 #[derive(Clone, Debug)]
 enum Choice {
+    /// There is but one.
+    Only(u32),
     Discrete(Discrete),
     Tree(Tree),
 }
@@ -64,12 +66,15 @@ impl LightSelector {
     /// Lights of power 0 are never chosen.
     pub fn new(selection: LightSelection, lights: &[LightBounds]) -> Self {
         let clusters = || lights.iter().map(|light| (light.power > 0.0).then(|| Cluster::new(light)));
-        let choice = match selection {
-            LightSelection::Uniform => {
+        let mut on = (0..).zip(lights).filter(|(_, light)| light.power > 0.0).map(|(index, _)| index);
+        let only = on.next().filter(|_| on.next().is_none());
+        let choice = match (only, selection) {
+            (Some(only), _) => Choice::Only(only),
+            (None, LightSelection::Uniform) => {
                 Choice::Discrete(Discrete::new(lights.iter().map(|light| f32::from(u8::from(light.power > 0.0)))))
             }
-            LightSelection::Power => Choice::Discrete(Discrete::new(lights.iter().map(|light| light.power))),
-            LightSelection::Tree => Choice::Tree(Tree::new(clusters())),
+            (None, LightSelection::Power) => Choice::Discrete(Discrete::new(lights.iter().map(|light| light.power))),
+            (None, LightSelection::Tree) => Choice::Tree(Tree::new(clusters())),
         };
         let all = clusters().flatten().reduce(Cluster::union);
         Self { all: all.map(|all| all.emitter()), choice }
@@ -83,6 +88,7 @@ impl LightSelector {
     pub fn sample(&self, p: Vec3, n: Vec3, uc: f32) -> Option<SelectedLight> {
         let u = refine(uc, p);
         let (index, pmf, rest) = match &self.choice {
+            Choice::Only(index) => return Some(SelectedLight { index: *index, pmf: 1.0, uc }),
             Choice::Discrete(discrete) => discrete.sample(u)?,
             Choice::Tree(tree) => tree.sample(p, n, u)?,
         };
@@ -94,6 +100,7 @@ impl LightSelector {
     #[inline]
     pub fn pmf(&self, p: Vec3, n: Vec3, index: u32) -> f32 {
         match &self.choice {
+            Choice::Only(only) => f32::from(u8::from(index == *only)),
             Choice::Discrete(discrete) => discrete.pmf(index) as f32,
             Choice::Tree(tree) => tree.pmf(p, n, index) as f32,
         }
@@ -260,8 +267,8 @@ mod tests {
                 assert!((0..8).all(|i| same.pmf(at, n, i) == 0.125), "{selection:?} at {at}");
             }
         }
-        let away =
-            LightSelector::new(LightSelection::Tree, &[LightBounds::flat(Vec3::ZERO, Vec3::X, Vec3::NEG_Y, 1.0)]);
+        let away = [LightBounds::flat(Vec3::ZERO, Vec3::X, Vec3::NEG_Y, 1.0); 2];
+        let away = LightSelector::new(LightSelection::Tree, &away);
         assert!(away.sample(9.0 * Vec3::Y, n, 0.5).is_none() && away.pmf(9.0 * Vec3::Y, n, 0) == 0.0);
     }
 
