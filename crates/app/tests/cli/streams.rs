@@ -63,7 +63,8 @@ fn stats() {
     assert_eq!(stats["scene"], "scene.toml");
     assert_eq!(stats["scene_hash"].as_str().unwrap().len(), 64);
     let settings = serde_json::json!({
-        "width": 32, "height": 18, "spp": 20, "max_depth": 50, "seed": 5, "integrator": "weekend"
+        "width": 32, "height": 18, "spp": 20, "max_depth": 50, "seed": 5, "integrator": "path", "sampler": "sobol",
+        "filter": {"blackman-harris": {"radius": 1.5}}, "light_selection": "tree"
     });
     assert_eq!(stats["settings"], settings);
     assert_eq!(stats["spp"], serde_json::json!({"min": 20, "mean": 20.0, "max": 20}));
