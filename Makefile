@@ -62,6 +62,36 @@ bench-kernel:
 	} || echo "Embree could not be fetched: going on without it" >&2
 	cargo run --release --locked -p eyebeam-bench -- kernel $(ARGS)
 
+# Other renderers on the same scenes. Drivers, references and scenes come from a folder beside the repository; what is
+# installed goes to a scratch folder, 3 GB in all. What cannot be installed is left out.
+PEERS_SHARED ?= ../shared
+PEERS_SCRATCH ?= target/peers
+PEERS_PYTHON = $(PEERS_SCRATCH)/mi/bin/python
+PEERS_INSTALLS = mi:mitsuba==3.9.1,numpy,pillow blender:bpy==4.5.15 lux:pyluxcore==2.11.2,numpy
+
+.PHONY: bench-peers agree-peers peers-setup
+peers-setup:
+	@test -d $(PEERS_SHARED)/peers || { echo "peers: there is no folder $(PEERS_SHARED)/peers" >&2; exit 1; }
+	@for install in $(PEERS_INSTALLS); do \
+		folder=$(PEERS_SCRATCH)/$${install%%:*}; packages=$$(echo $${install#*:} | tr , ' '); \
+		test -e $$folder/installed && continue; \
+		{ python3 -m venv $$folder && $$folder/bin/pip install --quiet $$packages && touch $$folder/installed; } \
+			|| { rm -rf $$folder; echo "peers: $$packages could not be installed: left out" >&2; }; \
+	done
+	$(PEERS_PYTHON) bench/peers/write_scenes.py $(PEERS_SHARED)/peers $(PEERS_SCRATCH)
+	$(PEERS_PYTHON) bench/peers/bitterli.py $(PEERS_SHARED)/scenes/mitsuba/bitterli/cornell-box $(PEERS_SCRATCH)
+	cargo build --release --locked -p eyebeam-bench
+
+# Seconds times error beside Mitsuba, Cycles and LuxCore.
+bench-peers: peers-setup
+	$(PEERS_PYTHON) bench/peers/compare.py --eyebeam target/release/eyebeam-bench --shared $(PEERS_SHARED)/peers \
+		--scratch $(PEERS_SCRATCH) $(ARGS)
+
+# Whether our pictures are those of the references: means, offsets, blocks.
+agree-peers: peers-setup
+	$(PEERS_PYTHON) bench/peers/agree.py --renderer target/release/eyebeam-bench --scenes $(PEERS_SCRATCH)/scenes \
+		--references $(PEERS_SCRATCH)/ref --info $(PEERS_SHARED)/peers/ref/info.json $(ARGS)
+
 # The study: pictures and numbers (docs/figures).
 figures:
 	cargo run --release -- figures paper -o docs/figures

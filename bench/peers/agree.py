@@ -13,10 +13,14 @@ from pathlib import Path
 
 import numpy as np
 
-SCENES = ("A2", "B", "C", "D", "E")
+SCENES = ("A2", "B", "C", "D", "E", "bitterli-cornell")
 # Allowed: ratio of the means, offset in pixels.
 MEAN, OFFSET = 0.005, 0.02
+# This reference lies a quarter of its own pixels lower than Mitsuba's picture of the same file, too.
+OFFSETS = {"bitterli-cornell": 0.1}
 BLOCK = 16
+# Of a reference that says nothing of its noise.
+UNKNOWN = {"relmse_noise": 1e-4}
 
 
 def read_pfm(path):
@@ -44,7 +48,7 @@ def blocks(image):
 
 
 def compare(scene, a, b, reference, info):
-    """The scene's row of the table, and whether all is as it should be."""
+    """Prints the scene's row of the table; whether mean and offset are as they should be."""
     mean = (a + b) / 2
     ratio = mean.mean() / reference.mean()
     shift = offset(mean, reference)
@@ -54,19 +58,20 @@ def compare(scene, a, b, reference, info):
     z = (blocks(mean) - blocks(reference)) / np.sqrt(own + theirs + 1e-12)
     spread, worst = np.sqrt((z**2).mean()), np.abs(z).max()
     print(f"| {scene} | {ratio:.4f} | {shift[0]:+.3f}, {shift[1]:+.3f} | {spread:.2f} | {worst:.1f} |", flush=True)
-    return abs(ratio - 1) < MEAN and np.abs(shift).max() < OFFSET, z
+    return abs(ratio - 1) < MEAN and np.abs(shift).max() < OFFSETS.get(scene, OFFSET)
 
 
 def main():
     parser = argparse.ArgumentParser(description=__doc__)
     parser.add_argument("--renderer", required=True, help="the program eyebeam-bench")
     parser.add_argument("--scenes", type=Path, required=True, help="folder of the scenes' JSON files")
-    parser.add_argument("--references", type=Path, required=True, help="folder of the references")
+    parser.add_argument("--references", type=Path, required=True, help="folder of the references as plain arrays")
+    parser.add_argument("--info", type=Path, required=True, help="what is known of the references' noise, JSON")
     parser.add_argument("--only", nargs="*", default=SCENES)
     parser.add_argument("--spp", type=int, default=512)
     parser.add_argument("--keep", type=Path, help="folder to keep the pictures in")
     args = parser.parse_args()
-    info = json.loads((args.references / "info.json").read_text())
+    info = json.loads(args.info.read_text())
     print(f"| scene | mean / reference | offset, pixels | RMS z of {BLOCK} x {BLOCK} blocks | worst z |")
     print("|---|---|---|---|---|")
     good = True
@@ -80,9 +85,8 @@ def main():
                 command = [args.renderer, "peer", "--threads", "2", "--scene", args.scenes / f"{scene}.json", "--spp", str(args.spp)]
                 subprocess.run([*command, "--seed", str(seed), "--out", out], check=True, stdout=subprocess.DEVNULL)
                 pictures.append(read_pfm(out))
-            reference = np.load(args.references / f"{scene}.npz")["img"].astype(float)
-            agrees, _ = compare(scene, *pictures, reference, info[scene])
-            good &= agrees
+            reference = np.load(args.references / f"{scene}.npy").astype(float)
+            good &= compare(scene, *pictures, reference, info.get(scene, UNKNOWN))
     sys.exit(0 if good else 1)
 
 
