@@ -4,5 +4,6 @@
 pub mod kernel;
 pub mod measure;
 pub mod peers;
+pub mod strategies;
 pub mod textbook;
 mod vec3;

@@ -10,6 +10,7 @@ use clap::{Parser, Subcommand};
 use eyebeam_bench::kernel::{self, Embree, Options};
 use eyebeam_bench::measure::{median, read_scene, render, samples, shrink, thread_time};
 use eyebeam_bench::peers::{self, Peer};
+use eyebeam_bench::strategies;
 use eyebeam_bench::textbook::Textbook;
 use eyebeam_core::desc::SceneDesc;
 use eyebeam_core::scene::Scene;
@@ -38,6 +39,8 @@ enum Command {
     Threads,
     /// The ray kernel against Embree and against the textbook's ways to find a hit: rays, builds, threads
     Kernel(Options),
+    /// What light sampling, Sobol points, the light tree and the choice of strategy are worth
+    Strategies,
     /// A picture of a scene that several renderers are compared on (bench/peers)
     Peer(Peer),
 }
@@ -51,6 +54,7 @@ fn main() -> Result<(), Box<dyn Error>> {
             let embree = Embree::load().inspect_err(|message| eprintln!("{message}")).ok();
             kernel::run(options, args.rounds as usize, embree.as_ref(), &mut stdout())
         }
+        Command::Strategies => strategies::run(args.rounds as usize),
         Command::Peer(options) => peers::run(options, args.spp),
     }
 }

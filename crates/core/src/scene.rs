@@ -9,7 +9,7 @@ use eyebeam_bvh::{BuildError, Primitive, Quality};
 use crate::camera::{Camera, CameraDesc};
 use crate::desc::SceneDesc;
 use crate::interaction::SurfaceInteraction;
-use crate::light::{AreaLight, Light, Lights};
+use crate::light::{AreaLight, EnvironmentSampling, Light, Lights};
 use crate::material::MaterialDesc;
 use crate::shape::{Smooth, SurfacePoint};
 use crate::validate::Problem;
@@ -24,6 +24,15 @@ pub enum Acceleration {
     Tree(Quality),
     /// By a test of everything.
     List,
+}
+
+/// How a scene is prepared: nothing of it is seen in the picture but its noise and how long it takes.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct BuildOptions {
+    /// How rays find what they hit.
+    pub acceleration: Acceleration,
+    /// How light from a picture of the surroundings is found.
+    pub environment: EnvironmentSampling,
 }
 
 /// A scene that rays can be traced through. After it is built, nothing can fail.
@@ -54,14 +63,14 @@ impl Scene {
     /// # Errors
     /// All that [`SceneDesc::check`] finds.
     pub fn build(desc: &SceneDesc) -> Result<Self, Vec<Problem>> {
-        Self::build_with(desc, Acceleration::default())
+        Self::build_with(desc, BuildOptions::default())
     }
 
-    /// As [`build`](Self::build), with the acceleration structure of choice: the picture is the same, the time is not.
+    /// As [`build`](Self::build), with choices that are not part of the scene.
     ///
     /// # Errors
     /// All that [`SceneDesc::check`] finds.
-    pub fn build_with(desc: &SceneDesc, acceleration: Acceleration) -> Result<Self, Vec<Problem>> {
+    pub fn build_with(desc: &SceneDesc, options: BuildOptions) -> Result<Self, Vec<Problem>> {
         let problems = desc.check();
         if !problems.is_empty() {
             return Err(problems);
@@ -90,10 +99,10 @@ impl Scene {
             });
         }
         lights.extend(desc.light.near());
-        let (environment, sun) = desc.environment.compile();
+        let (environment, sun) = desc.environment.compile(options.environment);
         let far = desc.light.far().chain(sun).collect();
         let lights = Lights::new(lights, desc.render.light_selection, environment, far);
-        let bvh = match acceleration {
+        let bvh = match options.acceleration {
             Acceleration::Auto => Bvh::build(&primitives, Quality::auto(expected_rays(desc), primitives.len())),
             Acceleration::Tree(quality) => Bvh::build(&primitives, quality),
             Acceleration::List => Bvh::list(&primitives),

@@ -15,7 +15,7 @@ use serde::{Deserialize, Serialize};
 use crate::color::{Rgb, Spectrum};
 use crate::film::Image;
 use crate::light::directional::Disk;
-use crate::light::lat_long::LatLong;
+use crate::light::lat_long::{EnvironmentSampling, LatLong};
 use crate::light::sky::{Sky, SkyDesc, SunDisk};
 use crate::validate::Checker;
 
@@ -116,12 +116,14 @@ impl EnvironmentDesc {
     }
 
     /// What is all around, and the sun in it.
-    pub(crate) fn compile(&self) -> (Environment, Option<Disk>) {
+    pub(crate) fn compile(&self, sampling: EnvironmentSampling) -> (Environment, Option<Disk>) {
         let environment = match self {
             Self::Gradient(g) => Environment::Gradient { bottom: g.bottom.into(), top: g.top.into() },
             Self::Constant(k) => Environment::Constant(k.radiance.into()),
             Self::Image(i) => match &i.image {
-                Some(image) => Environment::Image(LatLong::new(image.clone(), i.rotation.to_radians(), i.scale, true)),
+                Some(image) => {
+                    Environment::Image(LatLong::new(image.clone(), i.rotation.to_radians(), i.scale, sampling))
+                }
                 None => Environment::Constant(Spectrum::BLACK),
             },
             Self::Sky(sky) => {
@@ -131,7 +133,7 @@ impl EnvironmentDesc {
                     let irradiance = Spectrum::from(sun.radiance) * (std::f32::consts::PI * sin * sin);
                     Disk::new(sun.direction, 2.0 * sun.angular_radius, irradiance)
                 };
-                return (Environment::Image(LatLong::new(Arc::new(image), 0.0, 1.0, true)), sun.map(disk));
+                return (Environment::Image(LatLong::new(Arc::new(image), 0.0, 1.0, sampling)), sun.map(disk));
             }
             Self::None(NoLight {}) => Environment::Constant(Spectrum::BLACK),
         };

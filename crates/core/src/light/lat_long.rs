@@ -21,6 +21,20 @@ use crate::color::{Rgb, Spectrum};
 use crate::film::Image;
 use crate::math::sin_cos_turns;
 
+/// How light from all around is found. The picture is the same, the noise is not.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum EnvironmentSampling {
+    /// Compensated if it is uneven, never if it is even.
+    #[default]
+    Auto,
+    /// Directions in proportion to max(0, L − mean L).
+    Compensated,
+    /// Directions in proportion to L.
+    Proportional,
+    /// By the surfaces' own directions alone.
+    Never,
+}
+
 /// A picture of the surroundings.
 #[derive(Clone, Debug)]
 pub(crate) struct LatLong {
@@ -48,15 +62,18 @@ struct Distribution {
 
 impl LatLong {
     /// The picture, turned about +y by `rotation` (radians, counter-clockwise seen from above).
-    pub(crate) fn new(image: Arc<Image>, rotation: f32, scale: f32, compensate: bool) -> Self {
+    pub(crate) fn new(image: Arc<Image>, rotation: f32, scale: f32, sampling: EnvironmentSampling) -> Self {
         let turn = (libm::sinf(rotation), libm::cosf(rotation));
         let mut map = Self { image, scale, turn, mean: Spectrum::BLACK, distribution: None };
         let (mean, variance) = map.moments();
         map.mean = mean;
         let mean_luminance = Rgb(mean.to_rgb()).luminance();
-        if variance > Self::EVEN * mean_luminance * mean_luminance {
-            map.distribution = map.distribution(if compensate { mean_luminance } else { 0.0 });
-        }
+        map.distribution = match sampling {
+            EnvironmentSampling::Auto if variance <= Self::EVEN * mean_luminance * mean_luminance => None,
+            EnvironmentSampling::Auto | EnvironmentSampling::Compensated => map.distribution(mean_luminance),
+            EnvironmentSampling::Proportional => map.distribution(0.0),
+            EnvironmentSampling::Never => None,
+        };
         map
     }
 
@@ -242,11 +259,12 @@ fn sample_linear(a: f32, b: f32, u: f32) -> f32 {
 
 #[cfg(test)]
 mod tests {
+    use super::EnvironmentSampling::{Auto, Compensated, Proportional};
     use super::*;
     use crate::sampler::Independent;
     use crate::testing::chi2_counts;
 
-    fn map(rotation: f32, compensate: bool) -> LatLong {
+    fn map(rotation: f32, sampling: EnvironmentSampling) -> LatLong {
         let mut image = Image::new(32, 16);
         for (x, y) in (0..16).flat_map(|y| (0..32).map(move |x| (x, y))) {
             let wave = 0.3 + 0.2 * (x as f32 * 0.4).sin() + y as f32 * 0.02;
@@ -255,17 +273,17 @@ mod tests {
         image.set_pixel(20, 4, [300.0, 280.0, 200.0]);
         image.set_pixel(3, 0, [20.0; 3]);
         image.set_pixel(31, 15, [30.0; 3]);
-        LatLong::new(Arc::new(image), rotation, 2.0, compensate)
+        LatLong::new(Arc::new(image), rotation, 2.0, sampling)
     }
 
     #[test]
     fn pixels_are_where_the_convention_says() {
-        let map = map(0.0, false);
+        let map = map(0.0, Proportional);
         let at = |uv: Vec2| map.le(map.direction(uv)).to_rgb()[0];
         assert!((at(Vec2::new(20.5 / 32.0, 4.5 / 16.0)) - 600.0).abs() < 0.1);
         let mut image = Image::new(4, 3);
         image.set_pixel(1, 1, [1.0; 3]);
-        let map = LatLong::new(Arc::new(image), 0.0, 1.0, false);
+        let map = LatLong::new(Arc::new(image), 0.0, 1.0, Proportional);
         // The centre of pixel 1 of 4 is at φ = 135 degrees: +x and +z.
         let w = Vec3::new(1.0, 0.0, 1.0).normalize();
         assert!((map.le(w).to_rgb()[0] - 1.0).abs() < 1e-5);
@@ -278,7 +296,7 @@ mod tests {
         (14..18).for_each(|x| image.set_pixel(x, 1, [1.0; 3]));
         let image = Arc::new(image);
         for (degrees, w) in [(0.0_f32, Vec3::X), (90.0, Vec3::NEG_Z), (180.0, Vec3::NEG_X)] {
-            let map = LatLong::new(image.clone(), degrees.to_radians(), 1.0, false);
+            let map = LatLong::new(image.clone(), degrees.to_radians(), 1.0, Proportional);
             assert!((map.le(w).to_rgb()[0] - 1.0).abs() < 1e-4, "{degrees}");
             assert!((map.direction(map.uv(w)) - w).length() < 1e-5);
         }
@@ -289,8 +307,8 @@ mod tests {
     fn samples_follow_the_density() {
         const N: u32 = 200_000;
         const BINS: [usize; 2] = [64, 32];
-        for (rotation, compensate) in [(0.0, false), (1.0, true)] {
-            let map = map(rotation, compensate);
+        for (rotation, sampling) in [(0.0, Proportional), (1.0, Compensated)] {
+            let map = map(rotation, sampling);
             let mut counts = vec![0_u64; BINS[0] * BINS[1]];
             let bin = |uv: Vec2| {
                 let [x, y] = [(uv.x, BINS[0]), (uv.y, BINS[1])].map(|(c, n)| ((c * n as f32) as usize).min(n - 1));
@@ -319,7 +337,7 @@ mod tests {
             chi2_counts(&counts, &expected).unwrap();
             // Without the floor the radiance over the density is the integral of the radiance.
             let integral = f64::from(map.mean_irradiance().to_rgb()[0]) * 4.0;
-            assert!(compensate || (weight / integral - 1.0).abs() < 0.02, "{weight}, not {integral}");
+            assert!(sampling == Compensated || (weight / integral - 1.0).abs() < 0.02, "{weight}, not {integral}");
         }
     }
 
@@ -327,7 +345,7 @@ mod tests {
     fn even_light_is_not_sampled() {
         let mut image = Image::new(8, 4);
         (0..32).for_each(|i| image.set_pixel(i % 8, i / 8, [1.0 + 0.3 * (i % 3) as f32; 3]));
-        let map = LatLong::new(Arc::new(image), 0.0, 1.0, true);
+        let map = LatLong::new(Arc::new(image), 0.0, 1.0, Auto);
         assert!(!map.is_sampled() && map.sample(Vec2::splat(0.5)).is_none() && map.pdf(Vec3::X) == 0.0);
     }
 
@@ -336,7 +354,7 @@ mod tests {
         let mut image = Image::new(1, 1);
         for value in [0.0, 5.0] {
             image.set_pixel(0, 0, [value; 3]);
-            let map = LatLong::new(Arc::new(image.clone()), 0.3, 1.0, true);
+            let map = LatLong::new(Arc::new(image.clone()), 0.3, 1.0, Auto);
             for w in [Vec3::X, Vec3::Y, Vec3::NEG_Y, Vec3::NEG_Z] {
                 assert!((map.le(w).to_rgb()[0] - value).abs() < 1e-6 && map.pdf(w) == 0.0);
             }

@@ -21,6 +21,7 @@ use crate::validate::Checker;
 pub use directional::DirectionalLight;
 pub use environment::{Constant, EnvironmentDesc, Gradient, ImageEnvironment, NoLight};
 pub use ies::IesProfile;
+pub use lat_long::EnvironmentSampling;
 pub use point::PointLight;
 pub use spot::SpotLight;
 

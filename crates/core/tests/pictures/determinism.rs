@@ -10,7 +10,7 @@ use eyebeam_core::film::Image;
 use eyebeam_core::light::EnvironmentDesc;
 use eyebeam_core::material::{Dielectric, MaterialDesc, Metal};
 use eyebeam_core::render::{Monitor, Render, Settings};
-use eyebeam_core::scene::{Acceleration, Scene};
+use eyebeam_core::scene::{Acceleration, BuildOptions, Scene};
 
 use crate::setup::*;
 
@@ -52,7 +52,9 @@ fn threads_and_repetition_change_nothing() {
 
 #[test]
 fn the_tree_changes_nothing() {
-    let [tree, list] = [Acceleration::default(), Acceleration::List].map(|a| Scene::build_with(&medley(), a).unwrap());
+    let [tree, list] = [Acceleration::default(), Acceleration::List].map(|acceleration| {
+        Scene::build_with(&medley(), BuildOptions { acceleration, ..BuildOptions::default() }).unwrap()
+    });
     assert!(picture(&tree, settings_of(2, 20)) == picture(&list, settings_of(2, 20)));
 }
 

@@ -10,7 +10,7 @@ mod scenes;
 use std::time::Duration;
 
 use eyebeam_core::render::Settings;
-use eyebeam_core::scene::{Acceleration, Scene};
+use eyebeam_core::scene::{Acceleration, BuildOptions, Scene};
 use graph::draw;
 use scenes::{closed_room, crowd};
 
@@ -72,7 +72,13 @@ pub(super) fn make(study: &Study<'_>) -> Result<(), Error> {
     let closed = build(&closed_room())?;
     let open = build(&scene("spheres.toml", include_str!("../../../../../../scenes/spheres.toml"))?)?;
     let crowds = |acceleration| {
-        let build = |n| Ok((n, Scene::build_with(&crowd(n), acceleration).map_err(refused)?));
+        let build = |n| {
+            Ok((
+                n,
+                Scene::build_with(&crowd(n), BuildOptions { acceleration, ..BuildOptions::default() })
+                    .map_err(refused)?,
+            ))
+        };
         (1..=study.pick(7, 5)).map(|k| build(4_u32.pow(k))).collect::<Result<Vec<_>, Error>>()
     };
     let (lists, trees) = (crowds(Acceleration::List)?, crowds(Acceleration::default())?);
