@@ -5,7 +5,9 @@
 //! vertices = [[0, 0, 0], [1, 0, 0], [0, 1, 0]]
 //! triangles = [[0, 1, 2]]
 //! material = "paper"
+//! ```
 //!
+//! ```toml
 //! [[shape.mesh]]
 //! file = "bunny.ply"
 //! ```
@@ -131,8 +133,8 @@ impl ShapeDesc for MeshDesc {
         let list = lists.iter().find(|(_, is_empty)| !is_empty).map(|(name, _)| name);
         match (&self.file, list) {
             (None, None) if self.data.is_none() => {
-                let hint = "give it `vertices` and `triangles`, or a `file`".to_owned();
-                c.problem("file", "this mesh is empty", Some(hint));
+                let hint = "give the mesh `vertices` and `triangles`, or a `file`".to_owned();
+                c.problem("file", "there are neither `vertices` nor a `file`", Some(hint));
             }
             (Some(_), Some(name)) => {
                 let hint = "keep one of them".to_owned();

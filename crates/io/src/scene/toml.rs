@@ -149,12 +149,12 @@ impl<'a> Reader<'a> {
         let notes = assets::load(desc, |path| sources.folder(numbered.span_of(path).start));
         let mut missing = Vec::new();
         for Note { path, message, hint, kind } in notes {
-            let place = place_name(&path);
-            let mut problem = self.sources.problem(numbered.span_of(&path), format!("{message},{place}"), hint);
-            problem.diagnostic.unreadable = kind == Kind::Unreadable;
+            let span = numbered.span_of(&path);
             if kind == Kind::Warning {
-                self.warnings.push(problem);
+                self.warnings.push(self.sources.problem(span, message, hint));
             } else if self.problems.len() < self.most {
+                let mut problem = self.sources.problem(span, format!("{message},{}", place_name(&path)), hint);
+                problem.diagnostic.unreadable = kind == Kind::Unreadable;
                 self.problems.push(problem);
                 missing.push(path);
             }
