@@ -18,7 +18,7 @@ use eyebeam_io::Error;
 /// If there is none, or it cannot be read.
 pub fn read_scene(name: &str) -> Result<SceneDesc, Error> {
     let scenes = Path::new(concat!(env!("CARGO_MANIFEST_DIR"), "/../scenes"));
-    eyebeam_io::scene::read(&scenes.join(name).with_extension("toml"), &[])
+    Ok(eyebeam_io::scene::read(&scenes.join(name).with_extension("toml"), &[])?.desc)
 }
 
 /// Makes a picture so small that measuring it takes little time: as wide as asked, of the scene's own proportions, and by

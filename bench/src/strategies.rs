@@ -161,12 +161,7 @@ fn hall(count: u32) -> SceneDesc {
     }
     // Three classes of lamps, each a mesh of one radiance.
     for class in 0..3 {
-        let mut mesh = MeshDesc {
-            vertices: Vec::new(),
-            triangles: Vec::new(),
-            normals: Vec::new(),
-            material: Some(format!("lamp {class}")),
-        };
+        let mut mesh = MeshDesc { material: Some(format!("lamp {class}")), ..MeshDesc::default() };
         for i in (class..count).step_by(3) {
             let mut numbers = Independent::new(1, UVec2::ZERO, i);
             let (place, height) = (numbers.get_2d(), numbers.get_1d());

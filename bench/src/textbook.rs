@@ -369,7 +369,7 @@ mod tests {
     "#;
 
     fn scene() -> SceneDesc {
-        eyebeam_io::scene::read_str("spheres", SCENE, &[]).unwrap()
+        eyebeam_io::scene::read_str("spheres", SCENE, &[]).unwrap().desc
     }
 
     /// Matte, metal and glass through a lens: block by block, both pictures are as far apart as their noise allows.

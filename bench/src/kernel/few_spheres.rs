@@ -55,7 +55,7 @@ pub(super) fn run(plan: Plan, out: &mut dyn Write) -> Outcome {
         "tree",
     ];
     header(out, "spheres", columns.map(str::to_owned).into_iter())?;
-    for desc in [eyebeam_io::scene::read_str("six spheres", SIX_SPHERES, &[])?, read_scene("weekend")?] {
+    for desc in [eyebeam_io::scene::read_str("six spheres", SIX_SPHERES, &[])?.desc, read_scene("weekend")?] {
         let rays = record(&desc, plan.resolution)?;
         let spheres = desc.shape.sphere.iter().map(|s| Sphere { center: Vec3::from(s.center), radius: s.radius });
         let primitives: Vec<_> = spheres.map(Primitive::Sphere).collect();

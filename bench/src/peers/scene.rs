@@ -122,7 +122,8 @@ fn add(desc: &mut SceneDesc, shape: Shape, folder: &Path) -> Result<(), Box<dyn 
         Shape::Ply { file, material } => {
             let mesh = eyebeam_io::scene::ply::read_ply(&folder.join(file))?;
             let (vertices, triangles, normals) = (mesh.vertices, mesh.triangles, mesh.normals);
-            desc.shape.mesh.push(MeshDesc { vertices, triangles, normals, material: Some(material) });
+            let material = Some(material);
+            desc.shape.mesh.push(MeshDesc { vertices, triangles, normals, material, ..MeshDesc::default() });
         }
     }
     Ok(())

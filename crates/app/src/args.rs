@@ -60,6 +60,9 @@ pub(crate) struct RenderArgs {
     /// Change a value of the scene, as in -D camera.vfov=30
     #[arg(short = 'D', value_name = "KEY=VALUE", value_parser = setting)]
     pub(crate) set: Vec<Override>,
+    /// Take warnings about the scene for errors
+    #[arg(long)]
+    pub(crate) strict: bool,
     /// How to show progress
     #[arg(long, value_enum, default_value_t)]
     pub(crate) progress: ProgressStyle,
@@ -81,6 +84,9 @@ pub(crate) struct CheckArgs {
     /// Change a value of the scene, as in -D camera.vfov=30
     #[arg(short = 'D', value_name = "KEY=VALUE", value_parser = setting)]
     pub(crate) set: Vec<Override>,
+    /// Take warnings about the scene for errors
+    #[arg(long)]
+    pub(crate) strict: bool,
 }
 
 #[derive(Debug, ClapArgs)]

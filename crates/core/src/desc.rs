@@ -23,7 +23,7 @@ use crate::validate::{Checker, Problem};
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields, default)]
 pub struct SceneDesc {
-    /// Scene files, beside this one or below, that are read first; what this file says wins, and shapes add up.
+    /// Scene files, beside this one or below, that are read first; what this file says wins, and shapes and lights add up.
     #[serde(skip_serializing)]
     pub include: Vec<String>,
     /// Size and quality of the picture.

@@ -44,3 +44,4 @@ pub mod shape;
 #[cfg(any(test, feature = "testing"))]
 pub mod testing;
 pub mod validate;
+mod warnings;

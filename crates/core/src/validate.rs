@@ -54,6 +54,12 @@ impl Checker {
         }
     }
 
+    /// Notes that nobody has read the file that is named.
+    pub(crate) fn not_loaded(&mut self, file: &str) {
+        let hint = "readers of scenes load files; a program that makes a scene must give what is in them".to_owned();
+        self.problem("file", format!("`{file}` is not loaded"), Some(hint));
+    }
+
     fn require(&mut self, holds: bool, key: &str, message: impl FnOnce() -> String, hint: &str) {
         if !holds {
             self.problem(key, message(), Some(hint.to_owned()));

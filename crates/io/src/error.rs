@@ -123,19 +123,31 @@ pub struct Diagnostic {
     pub place: Option<Place>,
     /// What to do about it.
     pub hint: Option<String>,
+    /// Whether the scene may be right: the file system does not give a file that it names.
+    pub unreadable: bool,
 }
 
 impl fmt::Display for Diagnostic {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        write!(f, "error: {}", visible(&self.message))?;
-        if let Some(Place { file, line, column }) = &self.place {
-            write!(f, "\n  --> {}:{line}:{column}", visible(file))?;
-        }
-        if let Some(hint) = &self.hint {
-            write!(f, "\nhint: {}", visible(hint))?;
-        }
-        Ok(())
+        fmt_report(f, "error", &self.message, self.place.as_ref(), self.hint.as_deref())
     }
+}
+
+pub(crate) fn fmt_report(
+    f: &mut fmt::Formatter<'_>,
+    kind: &str,
+    message: &str,
+    place: Option<&Place>,
+    hint: Option<&str>,
+) -> fmt::Result {
+    write!(f, "{kind}: {}", visible(message))?;
+    if let Some(Place { file, line, column }) = place {
+        write!(f, "\n  --> {}:{line}:{column}", visible(file))?;
+    }
+    if let Some(hint) = hint {
+        write!(f, "\nhint: {}", visible(hint))?;
+    }
+    Ok(())
 }
 
 /// Names come from files: a line stays a line, no longer than one can read, and a terminal is told nothing.

@@ -1,6 +1,6 @@
 //! The bytes of a file that a scene refers to.
 
-use std::fs::File;
+use std::fs::{self, File};
 use std::io::{self, Read};
 use std::path::Path;
 
@@ -12,7 +12,7 @@ const MAX_BYTES: u64 = 2 << 30;
 /// All of a file.
 ///
 /// # Errors
-/// If the file system refuses, or it is longer than 2 GiB.
+/// If the file system refuses, it is a folder or a device, or it is longer than 2 GiB.
 pub(crate) fn read(path: &Path) -> Result<Vec<u8>, Error> {
     let bytes = read_all(path).map_err(|e| Error::read(path, e))?;
     let too_long = || FileError::new(format!("the file is longer than {} GiB", MAX_BYTES >> 30));
@@ -21,6 +21,11 @@ pub(crate) fn read(path: &Path) -> Result<Vec<u8>, Error> {
 
 /// None if there are more than [`MAX_BYTES`].
 fn read_all(path: &Path) -> io::Result<Option<Vec<u8>>> {
+    // Looked at before it is opened: that would wait for whoever writes into a pipe.
+    let kind = fs::metadata(path)?;
+    if !kind.is_file() {
+        return Err(io::Error::other(if kind.is_dir() { "it is a folder" } else { "it is no regular file" }));
+    }
     let file = File::open(path)?;
     let length = file.metadata()?.len();
     if length > MAX_BYTES {

@@ -1,13 +1,15 @@
 //! `eyebeam check`: every problem of a scene, without rendering it.
 
+use eyebeam_core::shape::MeshDesc;
+
 use crate::args::CheckArgs;
 use crate::error::Error;
 use crate::progress::say;
 
 pub(super) fn run(args: &CheckArgs) -> Result<(), Error> {
-    let desc = eyebeam_io::scene::read(&args.scene, &args.set)?;
+    let desc = super::read_scene(&args.scene, &args.set, args.strict, false)?.desc;
     let shapes = &desc.shape;
-    let triangles: usize = shapes.mesh.iter().map(|m| m.triangles.len()).sum();
+    let triangles: usize = shapes.mesh.iter().map(MeshDesc::triangle_count).sum();
     say(&format!(
         "{}: fine ({} spheres, {} quads, {triangles} triangles, {} materials)",
         args.scene.display(),

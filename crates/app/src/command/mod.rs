@@ -8,8 +8,11 @@ mod schema;
 use std::io::{Write, stdout};
 use std::path::Path;
 
+use eyebeam_io::scene::{Override, SceneFile};
+
 use crate::args::{Args, Command};
 use crate::error::Error;
+use crate::progress::say;
 
 pub(crate) fn run(args: Args) -> Result<(), Error> {
     match args.command {
@@ -18,6 +21,17 @@ pub(crate) fn run(args: Args) -> Result<(), Error> {
         Command::Schema => schema::run(),
         Command::Figures(args) => figures::run(&args),
     }
+}
+
+/// Reads a scene and says, if asked to, what is worth a word; if `strict`, that is an error.
+fn read_scene(path: &Path, settings: &[Override], strict: bool, quiet: bool) -> Result<SceneFile, Error> {
+    let file = eyebeam_io::scene::read(path, settings)?;
+    if strict && !file.warnings.is_empty() {
+        let errors = file.warnings.into_iter().map(Into::into).collect();
+        return Err(eyebeam_io::Error::Scene(errors).into());
+    }
+    file.warnings.iter().filter(|_| !quiet).for_each(|warning| say(&warning.to_string()));
+    Ok(file)
 }
 
 /// Whether a name stands for standard input or output.

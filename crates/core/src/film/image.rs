@@ -29,6 +29,11 @@ impl Image {
         &self.pixels
     }
 
+    /// Whether all pixels are 0.
+    pub fn is_black(&self) -> bool {
+        self.pixels.iter().all(|&pixel| pixel == [0.0; 3])
+    }
+
     fn index(&self, x: u32, y: u32) -> usize {
         assert!(x < self.width && y < self.height, "pixel ({x}, {y}) of a picture of {} x {}", self.width, self.height);
         y as usize * self.width as usize + x as usize

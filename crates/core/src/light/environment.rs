@@ -69,8 +69,8 @@ impl Default for Constant {
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct ImageEnvironment {
-    /// The picture (.hdr, .exr, .png), twice as wide as high: row 0 is straight above, the left edge looks along −z, and a
-    /// quarter of the way to the right is +x. A relative name is looked for beside the scene file.
+    /// The picture (.hdr, .exr, .png, .jpg), twice as wide as high: row 0 is straight above, the left edge looks along −z,
+    /// and a quarter of the way to the right is +x. A relative name is looked for beside the scene file that says it.
     pub file: String,
     /// Turns the surroundings about the vertical, counter-clockwise seen from above, degrees.
     #[serde(default)]
@@ -109,9 +109,24 @@ impl EnvironmentDesc {
             Self::Image(i) => c.within("image", |c| {
                 c.in_range("rotation", i.rotation, -1e4, 1e4);
                 c.in_range("scale", i.scale, 0.0, 1e9);
+                if i.image.is_none() {
+                    c.not_loaded(&i.file);
+                }
             }),
             Self::Sky(sky) => c.within("sky", |c| sky.check(c)),
             Self::None(NoLight {}) => {}
+        }
+    }
+
+    /// Whether no light comes from it.
+    pub(crate) fn is_dark(&self) -> bool {
+        let is_black = |rgb: &Rgb| rgb.0 == [0.0; 3];
+        match self {
+            Self::Gradient(g) => is_black(&g.bottom) && is_black(&g.top),
+            Self::Constant(k) => is_black(&k.radiance),
+            Self::Image(i) => i.scale == 0.0 || i.image.as_ref().is_none_or(|image| image.is_black()),
+            Self::Sky(sky) => sky.scale == 0.0,
+            Self::None(NoLight {}) => true,
         }
     }
 

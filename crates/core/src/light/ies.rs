@@ -138,6 +138,32 @@ impl IesProfile {
         if t > 0.0 { lerp(row(j), row(k), t) } else { row(j) }
     }
 
+    /// Luminous flux: the integral of the intensity over all directions, lumens.
+    pub fn flux(&self) -> f32 {
+        // ∫ (a + (b − a) (θ − θ₀) / (θ₁ − θ₀)) sin θ dθ between neighbours, along each column.
+        let vertical: Vec<f64> = self.vertical.iter().map(|&v| f64::from(v).to_radians()).collect();
+        let slice = |theta: &[f64], candela: &[f32]| {
+            let [a, b] = [candela[0], candela[1]].map(f64::from);
+            let [(sin_0, cos_0), (sin_1, cos_1)] = [theta[0], theta[1]].map(libm::sincos);
+            a * cos_0 - b * cos_1 + (b - a) * (sin_1 - sin_0) / (theta[1] - theta[0])
+        };
+        let columns = self.candela.chunks(vertical.len());
+        let columns = columns.map(|column| vertical.windows(2).zip(column.windows(2)).map(|(t, c)| slice(t, c)).sum());
+        let columns: Vec<f64> = columns.collect();
+        // Trapezoids between columns, as often as symmetry repeats them.
+        let between = |a: f64, b: f64, degrees: f32| 0.5 * (a + b) * f64::from(degrees).to_radians();
+        let angles = self.horizontal.windows(2).zip(columns.windows(2));
+        let table: f64 = angles.map(|(phi, c)| between(c[0], c[1], phi[1] - phi[0])).sum();
+        let (first, last) = (columns[0], columns[columns.len() - 1]);
+        let flux = match self.symmetry {
+            Symmetry::Axial => between(first, first, 360.0),
+            Symmetry::Quadrants => 4.0 * table,
+            Symmetry::AtZero | Symmetry::AtNinety => 2.0 * table,
+            Symmetry::None => table + between(first, last, 360.0 - self.horizontal[self.horizontal.len() - 1]),
+        };
+        flux.clamp(0.0, f64::from(f32::MAX)) as f32
+    }
+
     /// The two horizontal angles around `phi`, and where it is between them, 0..1.
     fn columns(&self, phi: f32) -> (usize, usize, f32) {
         let (first, last) = (self.horizontal[0], self.horizontal[self.horizontal.len() - 1]);
@@ -273,6 +299,31 @@ mod tests {
             for w in [Vec3::ZERO, Vec3::new(1.0, 1.0, 1.0), Vec3::new(-0.0, -1.0, -0.0), Vec3::new(-1.0, 0.0, -0.0)] {
                 assert!(profile.eval(w).is_finite());
             }
+        }
+    }
+
+    /// Against the sum over a fine grid of directions.
+    #[test]
+    fn flux_is_the_integral() {
+        let uneven = |horizontal: &[f32]| {
+            let candela = (0..horizontal.len() * 4).map(|i| (i * i % 17) as f32 * 10.0).collect();
+            IesProfile::new(vec![10.0, 40.0, 90.0, 160.0], horizontal.to_vec(), candela).unwrap()
+        };
+        let even = IesProfile::new(vec![0.0, 90.0, 180.0], vec![0.0], vec![3.0; 3]).unwrap();
+        assert!((even.flux() - 12.0 * PI).abs() < 1e-4);
+        let tables: [&[f32]; 5] =
+            [&[0.0], &[0.0, 90.0], &[0.0, 70.0, 180.0], &[90.0, 200.0, 270.0], &[0.0, 100.0, 330.0]];
+        for profile in tables.map(uneven) {
+            let (rows, columns) = (360, 720);
+            let mut sum = 0.0;
+            for (i, j) in (0..rows).flat_map(|i| (0..columns).map(move |j| (i, j))) {
+                let [theta, phi] = [(i, rows, 180.0), (j, columns, 360.0)]
+                    .map(|(k, n, range)| (f64::from(k) + 0.5) / f64::from(n) * range);
+                let candela = f64::from(profile.eval(direction(theta as f32, phi as f32)));
+                sum += candela * theta.to_radians().sin();
+            }
+            let expected = sum * 2.0 * std::f64::consts::PI.powi(2) / f64::from(rows * columns);
+            assert!((f64::from(profile.flux()) / expected - 1.0).abs() < 1e-3, "{}, not {expected}", profile.flux());
         }
     }
 

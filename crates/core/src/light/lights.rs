@@ -6,6 +6,7 @@
 //! Even environments are not drawn at all; see [`Environment::sampled`](super::environment::Environment::sampled).
 
 use std::f32::consts::PI;
+use std::sync::Arc;
 
 use glam::{Vec2, Vec3};
 
@@ -13,16 +14,20 @@ use crate::color::{Rgb, Spectrum};
 use crate::light::area::AreaLight;
 use crate::light::directional::Disk;
 use crate::light::environment::Environment;
+use crate::light::luminaire::Luminaire;
+use crate::light::projector::Projector;
 use crate::light::select::{LightBounds, LightSelection, LightSelector};
 use crate::light::spot::Spot;
 use crate::light::{LightSample, Target};
 
 /// A light that is somewhere.
-#[derive(Clone, Copy, Debug)]
+#[derive(Clone, Debug)]
 pub(crate) enum Light {
     Area(AreaLight),
     Point { position: Vec3, intensity: Spectrum },
     Spot { spot: Spot, intensity: Spectrum },
+    Luminaire(Arc<Luminaire>),
+    Projector(Arc<Projector>),
 }
 
 impl Light {
@@ -32,28 +37,30 @@ impl Light {
             Self::Area(light) => light.bounds(),
             Self::Point { position, intensity } => LightBounds::sphere(*position, 0.0, 4.0 * PI * luminance(intensity)),
             Self::Spot { spot, intensity } => spot.bounds(luminance(intensity)),
+            Self::Luminaire(luminaire) => luminaire.bounds(),
+            Self::Projector(projector) => projector.bounds(),
         }
     }
 
     #[inline]
     fn sample(&self, p: Vec3, u: Vec2) -> Option<LightSample> {
-        let from = |position: Vec3, intensity: Spectrum| {
-            let to = position - p;
-            let distance_sq = to.length_squared();
-            let wi = to.try_normalize()?;
-            let l = intensity * (1.0 / distance_sq);
-            Some(LightSample { wi, target: Target::On(position), l, pdf: 1.0, delta: true })
-        };
         match self {
             Self::Area(light) => light.sample(p, u),
-            Self::Point { position, intensity } => from(*position, *intensity),
-            Self::Spot { spot, intensity } => {
-                let sample = from(spot.position, *intensity)?;
-                let falloff = spot.falloff(-sample.wi);
-                (falloff > 0.0).then(|| LightSample { l: sample.l * falloff, ..sample })
-            }
+            Self::Point { position, intensity } => from_point(*position, p, |_| *intensity),
+            Self::Spot { spot, intensity } => from_point(spot.position, p, |w| *intensity * spot.falloff(w)),
+            Self::Luminaire(luminaire) => from_point(luminaire.position, p, |w| luminaire.intensity(w)),
+            Self::Projector(projector) => from_point(projector.position, p, |w| projector.intensity(w)),
         }
     }
+}
+
+/// What `p` gets from a light without size at `position`, whose intensity (W / sr) depends on the direction away from it.
+#[inline]
+fn from_point(position: Vec3, p: Vec3, intensity: impl FnOnce(Vec3) -> Spectrum) -> Option<LightSample> {
+    let to = position - p;
+    let wi = to.try_normalize()?;
+    let l = intensity(-wi) * (1.0 / to.length_squared());
+    (!l.is_black()).then_some(LightSample { wi, target: Target::On(position), l, pdf: 1.0, delta: true })
 }
 
 /// Where the last direction was drawn by a surface, and how: what its light is weighed by.

@@ -6,10 +6,14 @@ mod environment;
 mod ies;
 mod lat_long;
 mod lights;
+mod luminaire;
 mod point;
+mod projector;
 pub mod select;
 pub mod sky;
 mod spot;
+
+use std::sync::Arc;
 
 use glam::Vec3;
 use schemars::JsonSchema;
@@ -22,7 +26,9 @@ pub use directional::DirectionalLight;
 pub use environment::{Constant, EnvironmentDesc, Gradient, ImageEnvironment, NoLight};
 pub use ies::IesProfile;
 pub use lat_long::EnvironmentSampling;
+pub use luminaire::IesLight;
 pub use point::PointLight;
+pub use projector::ProjectorLight;
 pub use spot::SpotLight;
 
 pub(crate) use area::AreaLight;
@@ -39,6 +45,10 @@ pub struct LightsDesc {
     pub spot: Vec<SpotLight>,
     /// Suns.
     pub directional: Vec<DirectionalLight>,
+    /// Points that shine as a photometric file says.
+    pub ies: Vec<IesLight>,
+    /// Points that throw a picture.
+    pub projector: Vec<ProjectorLight>,
 }
 
 impl LightsDesc {
@@ -49,6 +59,8 @@ impl LightsDesc {
         each(c, "point", &self.point, PointLight::check);
         each(c, "spot", &self.spot, SpotLight::check);
         each(c, "directional", &self.directional, DirectionalLight::check);
+        each(c, "ies", &self.ies, IesLight::check);
+        each(c, "projector", &self.projector, ProjectorLight::check);
     }
 
     /// Those that are somewhere.
@@ -56,7 +68,10 @@ impl LightsDesc {
         let points = self.point.iter();
         let points = points.map(|l| Light::Point { position: l.position(), intensity: l.intensity.into() });
         let spots = self.spot.iter();
-        points.chain(spots.map(|l| Light::Spot { spot: l.compile(), intensity: l.intensity.into() }))
+        let spots = spots.map(|l| Light::Spot { spot: l.compile(), intensity: l.intensity.into() });
+        let luminaires = self.ies.iter().filter_map(|l| Some(Light::Luminaire(Arc::new(l.compile()?))));
+        let projectors = self.projector.iter().filter_map(|l| Some(Light::Projector(Arc::new(l.compile()?))));
+        points.chain(spots).chain(luminaires).chain(projectors)
     }
 
     /// Those that are infinitely far away.

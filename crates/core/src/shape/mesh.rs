@@ -1,4 +1,4 @@
-//! The triangle list.
+//! The triangle list, written in the scene or in a file of its own.
 //!
 //! ```toml
 //! [[shape.mesh]]
@@ -6,9 +6,16 @@
 //! triangles = [[0, 1, 2]]
 //! material = "paper"
 //! ```
+//!
+//! ```toml
+//! [[shape.mesh]]
+//! file = "bunny.ply"
+//! ```
+
+use std::sync::Arc;
 
 use eyebeam_bvh::{Primitive, Triangle};
-use glam::Vec3;
+use glam::{DVec3, Vec3};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
@@ -16,10 +23,14 @@ use crate::array::arrays;
 use crate::shape::{ShapeDesc, Smooth};
 use crate::validate::Checker;
 
-/// Triangles that share vertices. The normal of triangle a, b, c is (b − a) × (c − a).
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
-#[serde(deny_unknown_fields)]
+/// Triangles that share vertices: a `file`, or `vertices` and `triangles`. The normal of triangle a, b, c is
+/// (b − a) × (c − a).
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields, default)]
 pub struct MeshDesc {
+    /// A file (.ply) with vertices, triangles and perhaps normals. A relative name is looked for beside the scene file that
+    /// says it.
+    pub file: Option<String>,
     /// Vertices, metres.
     #[serde(deserialize_with = "arrays")]
     pub vertices: Vec<[f32; 3]>,
@@ -27,24 +38,68 @@ pub struct MeshDesc {
     #[serde(deserialize_with = "arrays")]
     pub triangles: Vec<[u32; 3]>,
     /// A normal at each vertex, of any length, if the mesh shall look round; else its triangles look flat.
-    #[serde(default, deserialize_with = "arrays")]
+    #[serde(deserialize_with = "arrays")]
     pub normals: Vec<[f32; 3]>,
     /// Name of a material; grey matte if absent.
-    #[serde(default)]
     pub material: Option<String>,
+    /// What is in the file, once a reader has loaded it.
+    #[serde(skip)]
+    pub data: Option<Arc<MeshData>>,
 }
 
-impl ShapeDesc for MeshDesc {
+/// What a mesh file holds; as in [`MeshDesc`].
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct MeshData {
+    /// Vertices, metres.
+    pub vertices: Vec<[f32; 3]>,
+    /// Three indices into `vertices` each.
+    pub triangles: Vec<[u32; 3]>,
+    /// A normal at each vertex, or none at all.
+    pub normals: Vec<[f32; 3]>,
+}
+
+/// A mesh, wherever it comes from.
+struct Mesh<'a> {
+    vertices: &'a [[f32; 3]],
+    triangles: &'a [[u32; 3]],
+    normals: &'a [[f32; 3]],
+}
+
+impl MeshDesc {
+    fn mesh(&self) -> Mesh<'_> {
+        match self.data.as_deref() {
+            Some(MeshData { vertices, triangles, normals }) => Mesh { vertices, triangles, normals },
+            None => Mesh { vertices: &self.vertices, triangles: &self.triangles, normals: &self.normals },
+        }
+    }
+
+    /// The number of triangles, once the file is loaded.
+    pub fn triangle_count(&self) -> usize {
+        self.mesh().triangles.len()
+    }
+
+    /// The number of triangles without area, which are never hit.
+    pub(crate) fn degenerate_count(&self) -> usize {
+        let mesh = self.mesh();
+        let has_area = |[a, b, c]: [DVec3; 3]| (b - a).cross(c - a) != DVec3::ZERO;
+        mesh.corners().filter(|corners| !has_area(corners.map(|c| c.as_dvec3()))).count()
+    }
+}
+
+impl<'a> Mesh<'a> {
+    /// The corners of each triangle. The check has found that every vertex exists.
+    fn corners(&self) -> impl Iterator<Item = [Vec3; 3]> + use<'a> {
+        let vertices = self.vertices;
+        let vertex = |i: u32| vertices.get(i as usize).map(|&v| Vec3::from(v));
+        self.triangles.iter().filter_map(move |&[a, b, c]| Some([vertex(a)?, vertex(b)?, vertex(c)?]))
+    }
+
     fn check(&self, c: &mut Checker) {
+        let is_finite = |v: &[f32; 3]| v.iter().copied().all(Checker::is_finite);
         c.within("vertices", |c| {
-            for (i, vertex) in
-                self.vertices.iter().enumerate().filter(|(_, v)| !v.iter().copied().all(Checker::is_finite))
-            {
-                c.problem(
-                    i,
-                    format!("vertex {i} is {vertex:?}"),
-                    Some("numbers up to 1e15 in size are allowed".to_owned()),
-                );
+            for (i, vertex) in self.vertices.iter().enumerate().filter(|(_, v)| !is_finite(v)) {
+                let hint = "numbers up to 1e15 in size are allowed".to_owned();
+                c.problem(i, format!("vertex {i} is {vertex:?}"), Some(hint));
             }
         });
         let count = self.vertices.len();
@@ -53,9 +108,7 @@ impl ShapeDesc for MeshDesc {
             c.problem("normals", message, Some("give one for each vertex, or none".to_owned()));
         }
         c.within("normals", |c| {
-            for (i, normal) in
-                self.normals.iter().enumerate().filter(|(_, n)| !n.iter().copied().all(Checker::is_finite))
-            {
+            for (i, normal) in self.normals.iter().enumerate().filter(|(_, n)| !is_finite(n)) {
                 c.problem(i, format!("normal {i} is {normal:?}"), Some("use finite numbers".to_owned()));
             }
         });
@@ -68,12 +121,34 @@ impl ShapeDesc for MeshDesc {
             }
         });
     }
+}
+
+impl ShapeDesc for MeshDesc {
+    fn check(&self, c: &mut Checker) {
+        let lists = [
+            ("vertices", self.vertices.is_empty()),
+            ("triangles", self.triangles.is_empty()),
+            ("normals", self.normals.is_empty()),
+        ];
+        let list = lists.iter().find(|(_, is_empty)| !is_empty).map(|(name, _)| name);
+        match (&self.file, list) {
+            (None, None) if self.data.is_none() => {
+                let hint = "give the mesh `vertices` and `triangles`, or a `file`".to_owned();
+                c.problem("file", "there are neither `vertices` nor a `file`", Some(hint));
+            }
+            (Some(_), Some(name)) => {
+                let hint = "keep one of them".to_owned();
+                c.problem(name, format!("`file` and `{name}` both say what the mesh is"), Some(hint));
+            }
+            (Some(file), None) if self.data.is_none() => c.not_loaded(file),
+            _ if self.data.is_some() => c.within("file", |c| self.mesh().check(c)),
+            _ => self.mesh().check(c),
+        }
+    }
 
     fn push_primitives(&self, primitives: &mut Vec<Primitive>) {
-        // The check has found that every vertex exists.
-        let vertex = |i: u32| self.vertices.get(i as usize).map(|&v| Vec3::from(v));
-        let triangle = |&[a, b, c]: &[u32; 3]| Some(Triangle { a: vertex(a)?, b: vertex(b)?, c: vertex(c)? });
-        primitives.extend(self.triangles.iter().filter_map(triangle).map(Primitive::Triangle));
+        let triangles = self.mesh().corners().map(|[a, b, c]| Triangle { a, b, c });
+        primitives.extend(triangles.map(Primitive::Triangle));
     }
 
     fn material(&self) -> Option<&str> {
@@ -81,6 +156,7 @@ impl ShapeDesc for MeshDesc {
     }
 
     fn smooth(&self) -> Option<Smooth> {
-        (!self.normals.is_empty()).then(|| Smooth::new(self.triangles.clone(), &self.normals))
+        let mesh = self.mesh();
+        (!mesh.normals.is_empty()).then(|| Smooth::new(mesh.triangles.to_vec(), mesh.normals))
     }
 }

@@ -15,7 +15,7 @@ use serde::{Deserialize, Serialize};
 use crate::math::offset_ray_origin;
 use crate::validate::Checker;
 
-pub use mesh::MeshDesc;
+pub use mesh::{MeshData, MeshDesc};
 pub use quad::QuadDesc;
 pub(crate) use smooth::Smooth;
 pub use sphere::SphereDesc;
@@ -44,7 +44,7 @@ impl ShapesDesc {
 
     /// Notes if there are more primitives than can be sorted for rays.
     pub(crate) fn check_count(&self, c: &mut Checker) {
-        let triangles: usize = self.mesh.iter().map(|mesh| mesh.triangles.len()).sum();
+        let triangles: usize = self.mesh.iter().map(MeshDesc::triangle_count).sum();
         let count = self.sphere.len() + self.quad.len() + triangles;
         if count > Bvh::MAX_PRIMITIVES {
             let hint = format!("at most {} are allowed", Bvh::MAX_PRIMITIVES);

@@ -90,8 +90,8 @@ fn lamps() -> SceneDesc {
     desc.shape.mesh.push(MeshDesc {
         vertices: vec![[0.5, 2.0, 1.0], [2.0, 2.2, 1.0], [1.0, 1.5, -1.5], [-1.0, 2.5, -2.0]],
         triangles: vec![[0, 1, 2], [0, 2, 3]],
-        normals: Vec::new(),
         material: Some("lamp".to_owned()),
+        ..MeshDesc::default()
     });
     desc
 }
@@ -160,6 +160,7 @@ fn octahedron(center: [f32; 3], radius: f32) -> MeshDesc {
         triangles: (0..8).map(triangle).collect(),
         normals,
         material: Some("it".to_owned()),
+        ..MeshDesc::default()
     }
 }
 

@@ -6,5 +6,6 @@ mod analytic;
 mod determinism;
 mod error;
 mod furnace;
+mod lamps;
 mod offset;
 mod setup;

@@ -117,7 +117,7 @@ pub(crate) fn box_mesh(lo: [f32; 3], hi: [f32; 3]) -> MeshDesc {
     let vertices = (0..8).map(|i| [at(i, 0), at(i, 1), at(i, 2)]).collect();
     let sides = [[0, 2, 3, 1], [4, 5, 7, 6], [0, 1, 5, 4], [2, 6, 7, 3], [0, 4, 6, 2], [1, 3, 7, 5]];
     let triangles = sides.iter().flat_map(|&[a, b, c, d]| [[a, b, c], [a, c, d]]).collect();
-    MeshDesc { vertices, triangles, normals: Vec::new(), material: Some("it".to_owned()) }
+    MeshDesc { vertices, triangles, material: Some("it".to_owned()), ..MeshDesc::default() }
 }
 
 /// That every channel of every pixel is `expected`, with every sampler: by `weekend` but for `error` relative to it, by the

@@ -96,6 +96,7 @@ pub(super) fn place_name(path: &[String]) -> String {
     match path.iter().map(String::as_str).collect::<Vec<_>>()[..] {
         ["material", name, ..] => format!(" in material \"{name}\""),
         ["shape", kind, _, ..] => format!(" in a {kind}"),
+        ["light", kind, _, ..] => format!(" in a light of kind {kind}"),
         ["environment"] => " in environment".to_owned(),
         [table, _, ..] => format!(" in {table}"),
         _ => String::new(),

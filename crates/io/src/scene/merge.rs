@@ -38,12 +38,12 @@ pub(super) fn shift_by(base: usize) -> impl FnMut(Range<usize>) -> Range<usize> 
     move |span| span.start + base..span.end + base
 }
 
-/// Puts the including file's table over an included one: settings and materials by name, shapes add up.
+/// Puts the including file's table over an included one: settings and materials by name, shapes and lights add up.
 pub(super) fn merge<'a>(under: &mut Table<'a>, over: Table<'a>) {
     for (key, value) in over {
         let mix: Option<fn(&mut Table<'a>, Table<'a>)> = match key.get_ref().as_ref() {
             "render" | "camera" | "material" => Some(replace),
-            "shape" => Some(append),
+            "shape" | "light" => Some(append),
             _ => None,
         };
         match (mix, under.get_mut(&key).map(Spanned::get_mut), value) {
@@ -64,11 +64,11 @@ fn replace<'a>(below: &mut Table<'a>, above: Table<'a>) {
     below.extend(above);
 }
 
-/// Lists of the same kind of shape become one.
+/// Lists of the same kind of shape or light become one.
 fn append<'a>(below: &mut Table<'a>, above: Table<'a>) {
     for (kind, value) in above {
         match (below.get_mut(&kind).map(Spanned::get_mut), value.get_ref()) {
-            (Some(DeValue::Array(shapes)), DeValue::Array(more)) => more.iter().for_each(|s| shapes.push(s.clone())),
+            (Some(DeValue::Array(things)), DeValue::Array(more)) => more.iter().for_each(|t| things.push(t.clone())),
             _ => {
                 below.insert(kind, value);
             }

@@ -11,6 +11,7 @@ use toml::de::{DeTable, DeValue};
 
 use crate::error::{Diagnostic, Error, Place};
 use crate::scene::nesting;
+use crate::warning::Warning;
 
 /// Longer scenes are refused: reading takes up to ninety times as much memory.
 const MAX_BYTES: u64 = 64 << 20;
@@ -30,6 +31,8 @@ pub(super) struct Sources {
 pub(super) struct Source {
     name: String,
     pub(super) text: String,
+    /// Where relative names in it are looked for; none for a text that is no file.
+    folder: Option<PathBuf>,
     /// Offset of the text's first byte.
     pub(super) base: usize,
     /// The texts that it includes, by index.
@@ -70,10 +73,15 @@ impl Sources {
     }
 
     /// Adds a text; returns its index.
-    pub(super) fn add(&mut self, name: String, text: String) -> usize {
+    fn add(&mut self, name: String, text: String, folder: Option<&Path>) -> usize {
         let base = self.length();
-        self.texts.push(Source { name, text, base, includes: Vec::new() });
+        self.texts.push(Source { name, text, folder: folder.map(Path::to_owned), base, includes: Vec::new() });
         self.texts.len() - 1
+    }
+
+    /// Adds a setting of the command line; returns its index. Names in it are relative to the current folder.
+    pub(super) fn add_setting(&mut self, text: String) -> usize {
+        self.add("-D".to_owned(), text, Some(Path::new("")))
     }
 
     /// Of all texts; one more than each, because the end of a text is a place, too.
@@ -102,7 +110,7 @@ impl Sources {
             _ => Vec::new(),
         };
         let is_valid = errors.is_empty() && too_deep.is_none();
-        let index = self.add(name, text.clone());
+        let index = self.add(name, text.clone(), folder);
         let base = self.texts[index].base;
         for error in errors {
             let Range { start, end } = error.span().unwrap_or_default();
@@ -118,8 +126,10 @@ impl Sources {
         for (span, name) in names.into_iter().filter(|_| is_valid) {
             match self.include(&name, folder, open) {
                 Ok(included) => self.texts[index].includes.push(included),
-                Err(Refusal::Here { message, hint }) => {
-                    self.report(span.start + base..span.end + base, message, Some(hint.to_owned()));
+                Err(Refusal::Here { message, hint, unreadable }) => {
+                    let mut problem = self.problem(span.start + base..span.end + base, message, Some(hint.to_owned()));
+                    problem.diagnostic.unreadable = unreadable;
+                    self.problems.push(problem);
                 }
                 Err(Refusal::There(error)) => return Err(error),
             }
@@ -128,7 +138,7 @@ impl Sources {
     }
 
     fn include(&mut self, name: &str, folder: Option<&Path>, open: &mut Vec<PathBuf>) -> Result<usize, Refusal> {
-        let refuse = |message, hint| Err(Refusal::Here { message, hint });
+        let refuse = |message, hint| Err(Refusal::Here { message, hint, unreadable: false });
         let root = open.first().and_then(|file| file.parent());
         let (Some(folder), Some(root)) = (folder, root) else {
             return refuse(format!("cannot include `{name}`: this scene has no folder"), "save it as a file");
@@ -145,6 +155,7 @@ impl Sources {
         let unreadable = |e| Refusal::Here {
             message: format!("cannot read `{name}`: {e}"),
             hint: "names are relative to the file that includes",
+            unreadable: true,
         };
         let real = real.map_err(unreadable)?;
         if open.contains(&real) {
@@ -176,11 +187,21 @@ impl Sources {
 
     /// What is wrong at a span.
     pub(super) fn problem(&self, span: Range<usize>, message: String, hint: Option<String>) -> Problem {
-        Problem { start: span.start, diagnostic: Diagnostic { message, place: self.place(span.start), hint } }
+        let place = self.place(span.start);
+        Problem { start: span.start, diagnostic: Diagnostic { message, place, hint, unreadable: false } }
+    }
+
+    /// Where relative names at an offset are looked for.
+    pub(super) fn folder(&self, offset: usize) -> Option<&Path> {
+        self.source(offset)?.folder.as_deref()
+    }
+
+    fn source(&self, offset: usize) -> Option<&Source> {
+        self.texts.iter().rev().find(|s| s.base <= offset && offset - s.base <= s.text.len())
     }
 
     fn place(&self, offset: usize) -> Option<Place> {
-        let source = self.texts.iter().rev().find(|s| s.base <= offset && offset - s.base <= s.text.len())?;
+        let source = self.source(offset)?;
         let before = source.text.get(..offset - source.base).unwrap_or(&source.text);
         let (line, column) = line_and_column(before);
         Some(Place { file: source.name.clone(), line, column })
@@ -190,17 +211,27 @@ impl Sources {
 /// Why a file is not included.
 enum Refusal {
     /// The including file is wrong.
-    Here { message: String, hint: &'static str },
+    Here { message: String, hint: &'static str, unreadable: bool },
     /// The included file is.
     There(Error),
 }
 
 /// The problems of a scene in the order of its text.
-pub(super) fn into_error(mut problems: Vec<Problem>) -> Error {
+pub(super) fn into_error(problems: Vec<Problem>) -> Error {
+    Error::Scene(in_order(problems))
+}
+
+/// What is only worth a warning, in the order of the scene's text.
+pub(super) fn into_warnings(problems: Vec<Problem>) -> Vec<Warning> {
+    let warning = |Diagnostic { message, place, hint, .. }| Warning { message, place, hint };
+    in_order(problems).into_iter().map(warning).collect()
+}
+
+fn in_order(mut problems: Vec<Problem>) -> Vec<Diagnostic> {
     problems.sort_by_key(|p| p.start);
     let mut diagnostics: Vec<_> = problems.into_iter().map(|p| p.diagnostic).collect();
     diagnostics.dedup();
-    Error::Scene(diagnostics)
+    diagnostics
 }
 
 /// The text of a file, or of standard input for `-`.
@@ -213,7 +244,8 @@ fn read_text(path: &Path) -> Result<String, Error> {
 fn text_of(path: &Path, bytes: std::io::Result<Option<Vec<u8>>>) -> Result<String, Error> {
     let refuse = |message: String, (line, column), hint: &str| {
         let place = Some(Place { file: path.display().to_string(), line, column });
-        Err(Error::Scene(vec![Diagnostic { message, place, hint: Some(hint.to_owned()) }]))
+        let diagnostic = Diagnostic { message, place, hint: Some(hint.to_owned()), unreadable: false };
+        Err(Error::Scene(vec![diagnostic]))
     };
     let Some(bytes) = bytes.map_err(|e| Error::read(path, e))? else {
         let message = format!("the scene file is longer than {} MiB", MAX_BYTES >> 20);

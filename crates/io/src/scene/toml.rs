@@ -13,13 +13,14 @@ use toml::Spanned;
 use toml::de::{DeTable, DeValue};
 
 use crate::error::Error;
-use crate::scene::Override;
+use crate::scene::assets::{self, Kind, Note};
 use crate::scene::explain::{
     MISSING_MATERIAL, explain, lacks_kind, missing_material, nearest_material, place_name, quoted,
 };
 use crate::scene::merge::{self, Table};
 use crate::scene::nesting::{self, MAX_DEPTH};
-use crate::scene::source::{Problem, Sources, into_error};
+use crate::scene::source::{Problem, Sources, into_error, into_warnings};
+use crate::scene::{Override, SceneFile};
 
 /// How many mistakes are looked for: each costs a walk through the scene, so fewer in long ones.
 fn most_problems(length: usize) -> usize {
@@ -27,11 +28,11 @@ fn most_problems(length: usize) -> usize {
 }
 
 /// The description in the first of `sources`, changed by settings.
-pub(super) fn read(mut sources: Sources, overrides: &[Override]) -> Result<SceneDesc, Error> {
+pub(super) fn read(mut sources: Sources, overrides: &[Override]) -> Result<SceneFile, Error> {
     let settings: Vec<_> =
-        overrides.iter().map(|o| (o, sources.add("-D".to_owned(), format!("{}={}", o.path, o.value)))).collect();
+        overrides.iter().map(|o| (o, sources.add_setting(format!("{}={}", o.path, o.value)))).collect();
     let most = most_problems(sources.length());
-    let mut reader = Reader { sources: &sources, most, problems: Vec::new() };
+    let mut reader = Reader { sources: &sources, most, problems: Vec::new(), warnings: Vec::new() };
     let mut table = reader.table(0);
     for (setting, source) in settings {
         reader.set(&mut table, setting, source);
@@ -41,7 +42,12 @@ pub(super) fn read(mut sources: Sources, overrides: &[Override]) -> Result<Scene
         let message = format!("these are the first {most} mistakes; there may be more");
         reader.report(usize::MAX..usize::MAX, message, None);
     }
-    if reader.problems.is_empty() { Ok(desc) } else { Err(into_error(reader.problems)) }
+    let Reader { problems, warnings, .. } = reader;
+    if problems.is_empty() {
+        Ok(SceneFile { desc, warnings: into_warnings(warnings) })
+    } else {
+        Err(into_error(problems))
+    }
 }
 
 struct Reader<'a> {
@@ -49,6 +55,7 @@ struct Reader<'a> {
     /// Where the list of problems ends.
     most: usize,
     problems: Vec<Problem>,
+    warnings: Vec<Problem>,
 }
 
 impl<'a> Reader<'a> {
@@ -107,8 +114,12 @@ impl<'a> Reader<'a> {
         while self.problems.len() < self.most {
             let whole = Spanned::new(0..0, numbered.table.clone());
             let error = match SceneDesc::deserialize(toml::de::Deserializer::from(whole)) {
-                Ok(desc) => {
+                Ok(mut desc) => {
+                    removed.extend(self.load(&mut desc, &numbered));
                     self.check(&desc, &numbered, &removed);
+                    if self.problems.is_empty() {
+                        self.warn(&desc, &numbered);
+                    }
                     return desc;
                 }
                 Err(error) => error,
@@ -132,22 +143,52 @@ impl<'a> Reader<'a> {
         SceneDesc::default()
     }
 
+    /// Loads the files that the scene names; returns the paths of those names that lead nowhere.
+    fn load(&mut self, desc: &mut SceneDesc, numbered: &Numbered<'_>) -> Vec<Vec<String>> {
+        let sources = self.sources;
+        let notes = assets::load(desc, |path| sources.folder(numbered.span_of(path).start));
+        let mut missing = Vec::new();
+        for Note { path, message, hint, kind } in notes {
+            let span = numbered.span_of(&path);
+            if kind == Kind::Warning {
+                self.warnings.push(self.sources.problem(span, message, hint));
+            } else if self.problems.len() < self.most {
+                let mut problem = self.sources.problem(span, format!("{message},{}", place_name(&path)), hint);
+                problem.diagnostic.unreadable = kind == Kind::Unreadable;
+                self.problems.push(problem);
+                missing.push(path);
+            }
+        }
+        missing
+    }
+
+    /// Reports what is allowed and yet hardly meant.
+    fn warn(&mut self, desc: &SceneDesc, numbered: &Numbered<'_>) {
+        let told =
+            desc.warnings().into_iter().map(|w| self.sources.problem(numbered.span_of(&w.path), w.message, w.hint));
+        self.warnings.extend(told);
+    }
+
     /// Reports what is wrong with the scene as a whole, but for what follows from other mistakes.
     fn check(&mut self, desc: &SceneDesc, numbered: &Numbered<'_>, removed: &[Vec<String>]) {
         for problem in desc.check() {
             let follows = removed.iter().any(|path| {
                 let is_material = path.len() <= 3 && path.first().is_some_and(|key| key == "material");
                 let is_named = path.get(1).is_none_or(|name| problem.message == missing_material(name));
-                *path == problem.path || is_material && is_named && problem.message.starts_with(MISSING_MATERIAL)
+                // Without its file or one of its lists, a mesh is another one.
+                let is_mesh = matches!(path.as_slice(), [s, m, _, _] if s == "shape" && m == "mesh")
+                    && problem.path.starts_with(&path[..3]);
+                *path == problem.path
+                    || is_mesh
+                    || is_material && is_named && problem.message.starts_with(MISSING_MATERIAL)
             });
             if follows || self.problems.len() >= self.most {
                 continue;
             }
-            let number = merge::span_of(&numbered.table, &problem.path).unwrap_or_default();
             let hint = nearest_material(desc, &problem.message).or(problem.hint);
             let place = place_name(&problem.path);
             let comma = if place.is_empty() { "" } else { "," };
-            self.report(numbered.span(&number), format!("{}{comma}{place}", problem.message), hint);
+            self.report(numbered.span_of(&problem.path), format!("{}{comma}{place}", problem.message), hint);
         }
     }
 }
@@ -174,6 +215,11 @@ impl<'a> Numbered<'a> {
     /// Where in the text a number stands.
     fn span(&self, number: &Range<usize>) -> Range<usize> {
         self.spans.get(number.start).cloned().unwrap_or_default()
+    }
+
+    /// Where in the text the value at a path stands, or the nearest one above it.
+    fn span_of(&self, path: &[String]) -> Range<usize> {
+        self.span(&merge::span_of(&self.table, path).unwrap_or_default())
     }
 }
 

@@ -57,7 +57,10 @@ fn what_is_not_finite_is_told_once() {
     image.set_pixel(4, 3, [-1.0; 3]);
     let bytes = ImageFormat::Exr.encode(&image, "{}").unwrap();
     let (read, warnings) = read_image_bytes("a", &bytes).unwrap();
-    assert!(matches!(warnings.as_slice(), [Warning { message }] if message.starts_with("1 pixel had")), "{warnings:?}");
+    assert!(
+        matches!(warnings.as_slice(), [Warning { message, .. }] if message.starts_with("1 pixel had")),
+        "{warnings:?}"
+    );
     assert_eq!(read.pixel(3, 3), [0.0, 19.0 * 6.0 * 0.01, 0.0]);
     assert_eq!(read.pixel(4, 3), [0.0; 3]);
 }

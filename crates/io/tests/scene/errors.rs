@@ -11,7 +11,7 @@ fn names() {
         "[▸cam]",
         "[material.wall.▸lambertain]",
         "[material.wall]\n▸albedo = 0.5",
-        "[environment.▸sky]",
+        "[environment.▸skye]",
         "[[shape.▸spheres]]\nradius = 1",
         "[render]\nintegrator = ▸\"weekand\"",
         "[render]\nintegrator = ▸\"bdpt\"",

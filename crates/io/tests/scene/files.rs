@@ -14,7 +14,7 @@ fn read_bytes(bytes: &[u8]) -> Result<SceneDesc, Error> {
     let folder = tempfile::tempdir().unwrap();
     let path = folder.path().join("a.toml");
     fs::write(&path, bytes).unwrap();
-    read(&path, &[])
+    read(&path, &[]).map(|file| file.desc)
 }
 
 fn only(error: Error) -> (String, (usize, usize)) {

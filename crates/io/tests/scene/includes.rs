@@ -38,7 +38,7 @@ fn add_up_and_the_including_file_wins() {
         ("lib/c.toml", "[material.x.lambertian]\n[environment.none]\n[[shape.sphere]]\nradius = 2"),
         ("lib/d.toml", "[[shape.sphere]]\nradius = 0.5\nmaterial = \"x\""),
     ]);
-    let desc = read(&folder.path().join("a.toml"), &[setting("shape.sphere.0.radius=9")]).unwrap();
+    let desc = read(&folder.path().join("a.toml"), &[setting("shape.sphere.0.radius=9")]).unwrap().desc;
     assert_eq!((desc.camera.vfov, desc.camera.aperture), (Some(30.0), Some(0.5)));
     assert_eq!(desc.shape.sphere.iter().map(|s| s.radius).collect::<Vec<_>>(), [9.0, 1.0, 2.0, 3.0]);
     assert!(matches!(desc.material["x"], eyebeam_core::material::MaterialDesc::Metal(_)));

@@ -1,5 +1,6 @@
 //! What the reader makes of scenes, above all of wrong ones.
 
+mod assets;
 mod errors;
 mod files;
 mod includes;

@@ -16,7 +16,7 @@ radius = 2
 ";
 
 fn read(settings: &[&str]) -> Result<eyebeam_core::desc::SceneDesc, eyebeam_io::Error> {
-    read_str("a.toml", SCENE, &settings.iter().map(|s| setting(s)).collect::<Vec<_>>())
+    read_str("a.toml", SCENE, &settings.iter().map(|s| setting(s)).collect::<Vec<_>>()).map(|file| file.desc)
 }
 
 #[test]

@@ -85,7 +85,7 @@ impl Study<'_> {
 
 /// A scene of the repository.
 fn scene(name: &str, text: &str) -> Result<SceneDesc, Error> {
-    Ok(eyebeam_io::scene::read_str(name, text, &[])?)
+    Ok(eyebeam_io::scene::read_str(name, text, &[])?.desc)
 }
 
 fn build(desc: &SceneDesc) -> Result<Scene, Error> {

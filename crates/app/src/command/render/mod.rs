@@ -1,5 +1,6 @@
 //! `eyebeam render`: a scene to a picture.
 
+mod hash;
 mod stats;
 
 use std::path::PathBuf;
@@ -8,16 +9,19 @@ use std::sync::mpsc::{RecvTimeoutError, channel};
 use std::thread;
 use std::time::{Duration, Instant};
 
-use eyebeam_core::desc::SceneDesc;
+use eyebeam_core::desc::RenderDesc;
 use eyebeam_core::film::{ErrorEstimate, Film};
+use eyebeam_core::integrator::IntegratorKind;
 use eyebeam_core::render::{Monitor, Render, Settings};
 use eyebeam_core::scene::Scene;
+use eyebeam_io::Warning;
 use eyebeam_io::image::ImageFormat;
 use eyebeam_io::output::check_writable;
+use eyebeam_io::scene::{Override, SceneFile};
 use stats::{Phases, Provenance, Stats};
 
 use crate::args::RenderArgs;
-use crate::command::{is_standard, write};
+use crate::command::{is_standard, read_scene, write};
 use crate::error::Error;
 use crate::progress::{Progress, State, duration, say};
 use crate::signals::Signals;
@@ -26,7 +30,8 @@ pub(super) fn run(args: &RenderArgs) -> Result<(), Error> {
     let output = Output::new(args)?;
     let mut phases = Phases::default();
     let clock = Instant::now();
-    let desc = describe(args)?;
+    let SceneFile { desc, warnings } = describe(args)?;
+    let scene_hash = hash::scene_hash(&desc);
     phases.load = clock.elapsed().as_secs_f64();
 
     let mut settings = Settings::from(&desc.render);
@@ -39,6 +44,9 @@ pub(super) fn run(args: &RenderArgs) -> Result<(), Error> {
 
     let clock = Instant::now();
     let scene = Scene::build(&desc).map_err(|mut problems| Error::Scene(problems.remove(0)))?;
+    let described = desc.render.clone();
+    // The scene has what it needs of the meshes.
+    drop(desc);
     phases.build = clock.elapsed().as_secs_f64();
     if args.verbose {
         let Settings { width, height, spp, threads, .. } = settings;
@@ -46,8 +54,9 @@ pub(super) fn run(args: &RenderArgs) -> Result<(), Error> {
     }
 
     let signals = Signals::listen().map_err(Error::Listen)?;
-    let mut session =
-        Session { render: Render::new(&scene, settings), desc: &desc, args, output: &output, error: None };
+    let render = Render::new(&scene, settings);
+    let scene = Described { settings: &described, hash: &scene_hash, warnings: &warnings };
+    let mut session = Session { render, scene, args, output: &output, error: None };
     let clock = Instant::now();
     let rays = session.run(&signals)?;
     phases.render = clock.elapsed().as_secs_f64();
@@ -63,15 +72,19 @@ pub(super) fn run(args: &RenderArgs) -> Result<(), Error> {
 }
 
 /// The scene with the command line's settings in it.
-fn describe(args: &RenderArgs) -> Result<SceneDesc, Error> {
-    let mut desc = eyebeam_io::scene::read(&args.scene, &args.set)?;
-    let render = &mut desc.render;
+fn describe(args: &RenderArgs) -> Result<SceneFile, Error> {
+    let mut settings = args.set.clone();
+    // Which lights are found depends on it, so the reader is to know.
+    let named = args.integrator.and_then(|kind| IntegratorKind::NAMES.iter().find(|(_, named)| *named == kind));
+    settings
+        .extend(named.map(|(name, _)| Override { path: "render.integrator".to_owned(), value: (*name).to_owned() }));
+    let mut file = read_scene(&args.scene, &settings, args.strict, args.quiet)?;
+    let render = &mut file.desc.render;
     (render.width, render.height) = args.resolution.unwrap_or((render.width, render.height));
     render.spp = args.spp.unwrap_or(render.spp);
     render.max_depth = args.max_depth.unwrap_or(render.max_depth);
     render.seed = args.seed.unwrap_or(render.seed);
-    render.integrator = args.integrator.unwrap_or(render.integrator);
-    Ok(desc)
+    Ok(file)
 }
 
 /// Film and picture, and the encoded file.
@@ -110,10 +123,17 @@ impl Output {
     }
 }
 
+/// What is told of the scene.
+struct Described<'a> {
+    settings: &'a RenderDesc,
+    hash: &'a str,
+    warnings: &'a [Warning],
+}
+
 /// A render with all that watches it.
 struct Session<'a> {
     render: Render<'a>,
-    desc: &'a SceneDesc,
+    scene: Described<'a>,
     args: &'a RenderArgs,
     output: &'a Output,
     /// The picture's error when it was last estimated.
@@ -169,7 +189,7 @@ impl Session<'_> {
     }
 
     fn provenance(&self) -> Provenance<'_> {
-        Provenance::new(self.args, self.desc, self.render.film(), self.error)
+        Provenance::new(self.args, &self.scene, self.render.film(), self.error)
     }
 
     fn write_picture(&self) -> Result<(), Error> {
@@ -180,7 +200,7 @@ impl Session<'_> {
     /// What was done, for a person and for a program.
     fn report(&self, phases: &Phases, rays: u64, signal: Option<u8>) -> Result<(), Error> {
         let settings = self.render.settings();
-        let stats = Stats::new(self.provenance(), settings.threads.get(), phases, rays, signal);
+        let stats = Stats::new(self.provenance(), self.scene.warnings, settings.threads.get(), phases, rays, signal);
         if !self.args.quiet {
             let error = self.error.map(|e| format!(" · error {:.1} %", 100.0 * e.mean)).unwrap_or_default();
             let seconds =
@@ -193,7 +213,7 @@ impl Session<'_> {
                 stats.mean_spp(),
                 rays as f64 / phases.render / 1e6,
             ));
-            stats.warnings().iter().for_each(|warning| say(&format!("warning: {warning}")));
+            stats.dropped().iter().for_each(|warning| say(&format!("warning: {warning}")));
         }
         match &self.args.stats {
             Some(path) => write(path, stats.to_json().as_bytes()),

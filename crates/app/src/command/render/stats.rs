@@ -1,11 +1,12 @@
 //! What a picture says of itself, and what a render says of its work: JSON in the file, and in `--stats`.
 
-use eyebeam_core::desc::{RenderDesc, SceneDesc};
+use eyebeam_core::desc::RenderDesc;
 use eyebeam_core::film::{ErrorEstimate, Film, SampleCounts};
+use eyebeam_io::{Place, Warning};
 use serde::Serialize;
-use sha2::{Digest, Sha256};
 
 use crate::args::RenderArgs;
+use crate::command::render::Described;
 use crate::limits::peak_memory;
 
 /// What made a picture; enough to make the same bits again.
@@ -17,8 +18,8 @@ pub(super) struct Provenance<'a> {
     scene: String,
     /// Settings of the command line that changed the scene.
     overrides: Vec<String>,
-    /// SHA-256 of the scene with all that was included and changed, but for `settings`.
-    scene_hash: String,
+    /// SHA-256 of the scene with all that was included, changed and loaded, but for `settings`.
+    scene_hash: &'a str,
     settings: &'a RenderDesc,
     spp: Spp,
     error: Option<Error>,
@@ -40,15 +41,15 @@ struct Error {
 }
 
 impl<'a> Provenance<'a> {
-    pub(super) fn new(args: &RenderArgs, desc: &'a SceneDesc, film: &Film, error: Option<ErrorEstimate>) -> Self {
+    pub(super) fn new(args: &RenderArgs, scene: &Described<'a>, film: &Film, error: Option<ErrorEstimate>) -> Self {
         let SampleCounts { min, mean, max, dropped } = film.sample_counts();
         Self {
             schema: "eyebeam-render-1",
             version: env!("CARGO_PKG_VERSION"),
             scene: args.scene.display().to_string(),
             overrides: args.set.iter().map(|o| format!("{}={}", o.path, o.value)).collect(),
-            scene_hash: scene_hash(desc),
-            settings: &desc.render,
+            scene_hash: scene.hash,
+            settings: scene.settings,
             spp: Spp { min, mean, max },
             error: error.map(|ErrorEstimate { mean, p95 }| Error { mean, p95 }),
             dropped,
@@ -58,12 +59,6 @@ impl<'a> Provenance<'a> {
     pub(super) fn to_json(&self) -> String {
         serde_json::to_string(self).unwrap_or_default()
     }
-}
-
-fn scene_hash(desc: &SceneDesc) -> String {
-    let scene = SceneDesc { render: RenderDesc::default(), ..desc.clone() };
-    let json = serde_json::to_vec(&scene).unwrap_or_default();
-    Sha256::digest(json).iter().map(|byte| format!("{byte:02x}")).collect()
 }
 
 /// Seconds of each phase.
@@ -90,18 +85,23 @@ pub(super) struct Stats<'a> {
     peak_rss_bytes: Option<u64>,
     threads: usize,
     warnings: Vec<String>,
+    /// The last one; those before have been told before the render.
+    #[serde(skip)]
+    dropped_warning: Option<String>,
 }
 
 impl<'a> Stats<'a> {
     pub(super) fn new(
         provenance: Provenance<'a>,
+        warnings: &[Warning],
         threads: usize,
         phases: &Phases,
         rays: u64,
         signal: Option<u8>,
     ) -> Self {
         let dropped = provenance.dropped;
-        let warnings = (dropped > 0).then(|| format!("{dropped} samples were no finite numbers and do not count"));
+        let dropped_warning =
+            (dropped > 0).then(|| format!("{dropped} samples were no finite numbers and do not count"));
         Self {
             provenance,
             stop_reason: if signal.is_some() { "signal" } else { "spp" },
@@ -112,7 +112,8 @@ impl<'a> Stats<'a> {
             rays_per_s: rays as f64 / phases.render,
             peak_rss_bytes: peak_memory(),
             threads,
-            warnings: Vec::from_iter(warnings),
+            warnings: warnings.iter().map(line).chain(dropped_warning.clone()).collect(),
+            dropped_warning,
         }
     }
 
@@ -120,11 +121,20 @@ impl<'a> Stats<'a> {
         self.provenance.spp.mean
     }
 
-    pub(super) fn warnings(&self) -> &[String] {
-        &self.warnings
+    /// A word about samples that do not count.
+    pub(super) fn dropped(&self) -> Option<&str> {
+        self.dropped_warning.as_deref()
     }
 
     pub(super) fn to_json(&self) -> String {
         serde_json::to_string_pretty(self).unwrap_or_default() + "\n"
+    }
+}
+
+/// `scene.toml:3:8: message`
+fn line(Warning { message, place, .. }: &Warning) -> String {
+    match place {
+        Some(Place { file, line, column }) => format!("{file}:{line}:{column}: {message}"),
+        None => message.clone(),
     }
 }

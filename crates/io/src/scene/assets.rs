@@ -1,0 +1,196 @@
+//! The files that a scene names: pictures, meshes, profiles of lamps.
+//!
+//! A file is read once, however often it is named, and shared.
+
+use std::collections::BTreeMap;
+use std::path::{Path, PathBuf};
+use std::sync::Arc;
+
+use eyebeam_core::desc::SceneDesc;
+use eyebeam_core::film::Image;
+use eyebeam_core::light::{EnvironmentDesc, IesProfile};
+use eyebeam_core::shape::MeshData;
+
+use crate::error::{At, Error, FileError};
+use crate::ies::read_ies;
+use crate::image::read_image;
+use crate::scene::ply::{self, read_ply};
+use crate::warning::Warning;
+
+/// No more files are read once those before take so much memory.
+const MAX_BYTES: u64 = 16 << 30;
+
+/// What is to be said about a file, where its name stands.
+pub(super) struct Note {
+    /// Keys and indices from the root of the scene.
+    pub(super) path: Vec<String>,
+    pub(super) message: String,
+    pub(super) hint: Option<String>,
+    pub(super) kind: Kind,
+}
+
+#[derive(Clone, Copy, PartialEq, Eq)]
+pub(super) enum Kind {
+    /// The file is not what it should be.
+    Wrong,
+    /// The file system does not give it.
+    Unreadable,
+    /// It is read, but not all of it was kept.
+    Warning,
+}
+
+/// Reads all files that are named. `folder_of` tells where relative names at a path of keys are looked for.
+pub(super) fn load<'a>(desc: &mut SceneDesc, folder_of: impl Fn(&[String]) -> Option<&'a Path>) -> Vec<Note> {
+    let mut loader = Loader { folder_of, bytes: 0, notes: Vec::new() };
+    let mut images = Cache::default();
+    if let EnvironmentDesc::Image(map) = &mut desc.environment {
+        map.image = loader.get(&mut images, path(&["environment", "image"], None), &map.file);
+    }
+    for (i, light) in desc.light.projector.iter_mut().enumerate() {
+        light.image = loader.get(&mut images, path(&["light", "projector"], Some(i)), &light.file);
+    }
+    let mut profiles = Cache::default();
+    for (i, light) in desc.light.ies.iter_mut().enumerate() {
+        light.profile = loader.get(&mut profiles, path(&["light", "ies"], Some(i)), &light.file);
+    }
+    let mut meshes = Cache::default();
+    for (i, mesh) in desc.shape.mesh.iter_mut().enumerate() {
+        if let Some(file) = &mesh.file {
+            mesh.data = loader.get(&mut meshes, path(&["shape", "mesh"], Some(i)), file);
+        }
+    }
+    loader.notes
+}
+
+/// Keys down to a `file`.
+fn path(keys: &[&str], index: Option<usize>) -> Vec<String> {
+    let keys = keys.iter().map(|key| (*key).to_owned());
+    keys.chain(index.map(|i| i.to_string())).chain(["file".to_owned()]).collect()
+}
+
+/// What a file becomes.
+trait Asset: Sized {
+    fn read(path: &Path) -> Result<(Self, Vec<Warning>), Error>;
+
+    /// The memory that it takes, about.
+    fn bytes(&self) -> usize;
+}
+
+impl Asset for Image {
+    fn read(path: &Path) -> Result<(Self, Vec<Warning>), Error> {
+        read_image(path)
+    }
+
+    fn bytes(&self) -> usize {
+        size_of_val(self.pixels())
+    }
+}
+
+impl Asset for IesProfile {
+    fn read(path: &Path) -> Result<(Self, Vec<Warning>), Error> {
+        read_ies(path)
+    }
+
+    fn bytes(&self) -> usize {
+        size_of_val(self.candela())
+    }
+}
+
+impl Asset for MeshData {
+    fn read(path: &Path) -> Result<(Self, Vec<Warning>), Error> {
+        let ply::MeshData { vertices, normals, triangles, .. } = read_ply(path)?;
+        Ok((Self { vertices, triangles, normals }, Vec::new()))
+    }
+
+    fn bytes(&self) -> usize {
+        size_of_val(&*self.vertices) + size_of_val(&*self.triangles) + size_of_val(&*self.normals)
+    }
+}
+
+/// Files of a kind by their full names, also those that could not be read.
+type Cache<T> = BTreeMap<PathBuf, Result<Arc<T>, Failure>>;
+
+/// Why a file is not read. The message goes on where the name of the file ends.
+#[derive(Clone)]
+struct Failure {
+    message: String,
+    hint: Option<String>,
+    kind: Kind,
+}
+
+impl Failure {
+    fn wrong(message: &str, hint: &str) -> Self {
+        Self { message: message.to_owned(), hint: Some(hint.to_owned()), kind: Kind::Wrong }
+    }
+
+    fn unreadable(error: &std::io::Error) -> Self {
+        let hint = "a relative name is looked for beside the scene file that says it".to_owned();
+        Self { message: format!("cannot be read: {error}"), hint: Some(hint), kind: Kind::Unreadable }
+    }
+}
+
+impl From<Error> for Failure {
+    fn from(error: Error) -> Self {
+        match error {
+            Error::Io { source, .. } => Self::unreadable(&source),
+            Error::File(FileError { message, at, hint, .. }) => {
+                let at = match at {
+                    At::File => String::new(),
+                    At::Line(line) => format!(" (line {line})"),
+                    At::Byte(byte) => format!(" (byte {byte})"),
+                };
+                Self { message: format!("is wrong: {message}{at}"), hint, kind: Kind::Wrong }
+            }
+            other => Self { message: format!("is wrong: {other}"), hint: None, kind: Kind::Wrong },
+        }
+    }
+}
+
+struct Loader<F> {
+    folder_of: F,
+    /// That what was read takes.
+    bytes: u64,
+    notes: Vec<Note>,
+}
+
+impl<'a, F: Fn(&[String]) -> Option<&'a Path>> Loader<F> {
+    /// The file that is named at a path of keys; none, and a note, if it cannot be had.
+    fn get<T: Asset>(&mut self, cache: &mut Cache<T>, path: Vec<String>, name: &str) -> Option<Arc<T>> {
+        let Failure { message, hint, kind } = match self.find(cache, &path, name) {
+            Ok(asset) => return Some(asset),
+            Err(failure) => failure,
+        };
+        self.notes.push(Note { path, message: format!("`{name}` {message}"), hint, kind });
+        None
+    }
+
+    fn find<T: Asset>(&mut self, cache: &mut Cache<T>, path: &[String], name: &str) -> Result<Arc<T>, Failure> {
+        let Some(folder) = (self.folder_of)(path) else {
+            return Err(Failure::wrong("cannot be read: this scene has no folder", "save the scene as a file"));
+        };
+        let file = folder.join(name);
+        let real = file.canonicalize().map_err(|e| Failure::unreadable(&e))?;
+        if let Some(known) = cache.get(&real) {
+            return known.clone();
+        }
+        let asset = self.read(&file, path, name);
+        cache.insert(real, asset.clone());
+        asset
+    }
+
+    fn read<T: Asset>(&mut self, file: &Path, path: &[String], name: &str) -> Result<Arc<T>, Failure> {
+        if self.bytes > MAX_BYTES {
+            let message = format!("is not read: the files before it take more than {} GiB", MAX_BYTES >> 30);
+            return Err(Failure::wrong(&message, "use fewer or smaller files"));
+        }
+        let (asset, warnings) = T::read(file)?;
+        self.bytes += asset.bytes() as u64;
+        self.notes.extend(warnings.into_iter().map(|Warning { message, hint, .. }| Note {
+            path: path.to_vec(),
+            message: format!("`{name}`: {message}"),
+            hint,
+            kind: Kind::Warning,
+        }));
+        Ok(Arc::new(asset))
+    }
+}
