@@ -36,6 +36,8 @@ struct Flat {
     edges: [Vec3; 2],
     n: Vec3,
     area: f32,
+    /// From this squared distance on, cos θ / distance² is nearly the same everywhere.
+    far_sq: f32,
 }
 
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -50,7 +52,7 @@ enum Kind {
 enum FlatSampling {
     Rectangle(SphericalRectangle),
     Triangle(SphericalTriangle),
-    /// Too small, too large or too slanted for its solid angle: by area.
+    /// By area: from afar, or where the shape is too slanted for its solid angle.
     Area,
 }
 
@@ -76,7 +78,7 @@ impl AreaLight {
         let power = |area: f32| Rgb(self.radiance.to_rgb()).luminance() * PI * area * sides;
         match self.shape {
             Shape::Sphere { center, radius } => LightBounds::sphere(center, radius, power(sphere_area(radius))),
-            Shape::Flat(Flat { kind, corner, edges: [u, v], n, area }) => {
+            Shape::Flat(Flat { kind, corner, edges: [u, v], n, area, .. }) => {
                 let far = if kind == Kind::Triangle { corner + u } else { corner + u + v };
                 let points = [corner + u, corner + v, far];
                 let [lo, hi] = [Vec3::min, Vec3::max].map(|f| points.into_iter().fold(corner, f));
@@ -155,7 +157,9 @@ impl Flat {
     fn new(kind: Kind, corner: Vec3, edges: [Vec3; 2]) -> Self {
         let normal = edges[0].as_dvec3().cross(edges[1].as_dvec3());
         let share = if kind == Kind::Triangle { 0.5 } else { 1.0 };
-        Self { kind, corner, edges, n: normal.normalize_or_zero().as_vec3(), area: share * normal.length() as f32 }
+        let far_sq = Self::FAR * Self::FAR * (edges[0].abs() + edges[1].abs()).length_squared();
+        let (n, area) = (normal.normalize_or_zero().as_vec3(), share * normal.length() as f32);
+        Self { kind, corner, edges, n, area, far_sq }
     }
 
     #[inline]
@@ -166,9 +170,15 @@ impl Flat {
         SurfacePoint::rounded(corner + u * uv.x + v * uv.y, reach, self.n)
     }
 
+    /// Lengths of the shape away, sampling the area makes as little noise as the solid angle, and costs less.
+    const FAR: f32 = 20.0;
+
     #[inline]
     fn sampling(&self, p: Vec3) -> FlatSampling {
         let (corner, [u, v]) = (self.corner, self.edges);
+        if p.distance_squared(corner) > self.far_sq {
+            return FlatSampling::Area;
+        }
         let by_angle = match self.kind {
             Kind::Rectangle => SphericalRectangle::new(corner, u, v, p).map(FlatSampling::Rectangle),
             Kind::Triangle => SphericalTriangle::new([corner, corner + u, corner + v], p).map(FlatSampling::Triangle),

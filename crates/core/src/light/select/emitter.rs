@@ -2,7 +2,8 @@
 //!
 //! importance = I · cos θ'ᵢ · cos θ' / d²
 //!
-//! with the peak intensity I (power per steradian), the distance d from the middle of the lights' sphere, the angle θ' at
+//! with the peak intensity I (power per steradian), the mean square d² of the distances to all places in the lights' box,
+//! which also tells apart groups that the point is within, the angle θ' at
 //! which the lights send light to the point and the angle θ'ᵢ at which it arrives. Both are as small as the bounds
 //! allow: θ' = max(θ - θₒ - θᵤ, 0), where θ is the angle between the axis and the direction to the point, θₒ the spread
 //! of the normals and θᵤ the half-angle under which the point sees the sphere; θ'ᵢ = max(θᵢ - θᵤ, 0). So importance is
@@ -80,6 +81,8 @@ impl Cluster {
         Emitter {
             center,
             radius: radius.clamp(Emitter::SMALLEST, Emitter::LARGEST),
+            variance: ((self.hi - self.lo).length_squared() / 12.0)
+                .clamp(Emitter::SMALLEST * Emitter::SMALLEST, Emitter::LARGEST * Emitter::LARGEST),
             axis: self.normals.axis,
             spread: self.normals.spread,
             // A beam has the rounding of the cosine it is compared with.
@@ -96,6 +99,8 @@ pub(super) struct Emitter {
     /// The sphere around them.
     center: Vec3,
     radius: f32,
+    /// Mean squared distance of a place in the box from its middle.
+    variance: f32,
     /// The cone of their normals.
     axis: Vec3,
     spread: Angle,
@@ -120,9 +125,12 @@ impl Emitter {
     pub(super) fn importance(&self, p: Vec3, n: Vec3) -> f64 {
         let to_p = p - self.center;
         let (d_sq, r_sq) = (to_p.length_squared(), self.radius * self.radius);
+        // The mean over the box.
+        let mean_d_sq = f64::from(d_sq) + f64::from(self.variance);
         // Among the lights anything is possible; so it is where the distance is none.
         if !(d_sq > r_sq && d_sq < f32::INFINITY) {
-            return f64::from(self.intensity) / f64::from(r_sq);
+            let mean_d_sq = if mean_d_sq.is_finite() { mean_d_sq } else { f64::from(f32::MAX) };
+            return f64::from(self.intensity) / mean_d_sq;
         }
         let d_inv = 1.0 / d_sq.sqrt();
         let w = to_p * d_inv;
@@ -137,7 +145,7 @@ impl Emitter {
             return 0.0;
         }
         let cos_received = if n == Vec3::ZERO { 1.0 } else { Angle::from_cos(n.dot(w).abs()).minus(subtended).cos };
-        f64::from(self.intensity) * f64::from(cos_emitted) * f64::from(cos_received) / f64::from(d_sq)
+        f64::from(self.intensity) * f64::from(cos_emitted) * f64::from(cos_received) / mean_d_sq
     }
 }
 
