@@ -19,7 +19,7 @@ pub(super) const REC_709: attribute::Chromaticities = attribute::Chromaticities 
 };
 
 /// Names of the ids in a picture, as JSON, in an attribute of this name.
-const NAMES: &str = "names";
+const NAMES: &str = "id.names";
 
 pub(super) fn encode(image: &Picture, provenance: &str) -> std::result::Result<Vec<u8>, Error> {
     let alpha = |x: usize, y: usize| image.alpha().map_or(1.0, |alpha| alpha[y * image.width() as usize + x]);
@@ -27,7 +27,7 @@ pub(super) fn encode(image: &Picture, provenance: &str) -> std::result::Result<V
         let [r, g, b] = image.pixel(x as u32, y as u32);
         (r, g, b, alpha(x, y))
     });
-    bytes(&file(image, channels, &[("eyebeam", provenance)])?)
+    bytes(&file(image, channels, provenance)?)
 }
 
 /// A picture with more channels than its colours. `names` says in JSON what ids stand for.
@@ -57,27 +57,31 @@ pub fn encode_channels(
         AnyChannel { quantize_linearly: true, ..AnyChannel::new(channel.name, samples) }
     }));
     assert!(list.iter().all(|c| c.sample_data.len() == image.pixels().len()), "one number for each pixel");
-    let texts = [("eyebeam", &*ascii(provenance)), (NAMES, &ascii(names))];
-    bytes(&file(image, AnyChannels::sort(list), &texts)?)
+    let mut file = file(image, AnyChannels::sort(list), &ascii(provenance))?;
+    // Of several attributes in one place, the order in the file would be random.
+    file.attributes.other.insert(Text::from(NAMES), plain_text(&ascii(names))?);
+    bytes(&file)
 }
 
-/// A picture's channels as a file, with texts of these names.
+/// A picture's channels as a file.
 fn file<'c, C: WritableChannels<'c> + 'c>(
     image: &Picture,
     channels: C,
-    texts: &[(&str, &str)],
+    provenance: &str,
 ) -> std::result::Result<Image<Layer<C>>, Error> {
     let mut attributes = LayerAttributes { software_name: Some(Text::from("Eyebeam")), ..LayerAttributes::default() };
-    for (name, text) in texts {
-        let text = Text::new_or_none(text).ok_or_else(|| Error::Encode(format!("`{name}` is not plain text")))?;
-        attributes.other.insert(Text::from(*name), AttributeValue::Text(text));
-    }
+    attributes.other.insert(Text::from("eyebeam"), plain_text(provenance)?);
     let size = (image.width() as usize, image.height() as usize);
     let encoding =
         Encoding { compression: Compression::ZIP16, blocks: Blocks::ScanLines, line_order: LineOrder::Increasing };
     let mut file = Image::from_layer(Layer::new(size, attributes, encoding, channels));
     file.attributes.chromaticities = Some(REC_709);
     Ok(file)
+}
+
+fn plain_text(text: &str) -> std::result::Result<AttributeValue, Error> {
+    let text = Text::new_or_none(text).ok_or_else(|| Error::Encode("an attribute is not plain text".to_owned()))?;
+    Ok(AttributeValue::Text(text))
 }
 
 fn bytes<'f, L: WritableLayers<'f>>(file: &'f Image<L>) -> std::result::Result<Vec<u8>, Error> {
@@ -122,7 +126,7 @@ mod tests {
         assert_eq!(list[0].sample_data, FlatSamples::F32(vec![0.25; 60]));
         assert_eq!(list[4].sample_data, FlatSamples::F32(depth));
         assert_eq!(list[5].sample_data, FlatSamples::U32(id));
-        let names = &file.layer_data.attributes.other[&Text::from("names")];
+        let names = &file.layer_data.attributes.other[&Text::from(NAMES)];
         assert_eq!(names, &AttributeValue::Text(Text::from("{\"object\":[\"\",\"\\u00e4\"]}")));
         let file = read_first_rgba_layer_from_buffer(&bytes);
         assert_eq!(file.layer_data.channel_data.pixels[19][2], [1.0, 2.0, 3.0, 0.25]);
