@@ -157,7 +157,13 @@ fn floats<T, const N: usize>(names: [&'static str; N], pixels: &[T], f: impl Fn(
 }
 
 fn ids(hits: &[FirstHit]) -> Vec<Channel> {
-    let of: [(&str, fn(&Ids) -> u32); 3] =
-        [("id.object", |id| id.object), ("id.material", |id| id.material), ("id.instance", |id| id.instance)];
-    of.map(|(name, f)| Channel { name, values: Values::Id(hits.iter().map(|h| f(&h.ids)).collect()) }).into()
+    let channel = |name, f: fn(&Ids) -> u32| {
+        let values = hits.iter().map(|hit| f(&hit.ids)).collect();
+        Channel { name, values: Values::Id(values) }
+    };
+    vec![
+        channel("id.object", |ids| ids.object),
+        channel("id.material", |ids| ids.material),
+        channel("id.instance", |ids| ids.instance),
+    ]
 }
