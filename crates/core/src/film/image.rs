@@ -30,20 +30,6 @@ impl Image {
         &self.pixels
     }
 
-    /// The same with the share of each pixel that is covered, 0..1, which its colour has been multiplied by.
-    ///
-    /// # Panics
-    /// If there is not one for each pixel.
-    pub fn with_alpha(self, alpha: Vec<f32>) -> Self {
-        assert_eq!(alpha.len(), self.pixels.len(), "one alpha for each pixel");
-        Self { alpha: Some(alpha), ..self }
-    }
-
-    /// The share of each pixel that is covered, row by row; none if all are.
-    pub fn alpha(&self) -> Option<&[f32]> {
-        self.alpha.as_deref()
-    }
-
     fn index(&self, x: u32, y: u32) -> usize {
         assert!(x < self.width && y < self.height, "pixel ({x}, {y}) of a picture of {} x {}", self.width, self.height);
         y as usize * self.width as usize + x as usize
@@ -64,5 +50,19 @@ impl Image {
     pub fn set_pixel(&mut self, x: u32, y: u32, rgb: [f32; 3]) {
         let index = self.index(x, y);
         self.pixels[index] = rgb;
+    }
+
+    /// The same with the share of each pixel that is covered, 0..1, which its colour has been multiplied by.
+    ///
+    /// # Panics
+    /// If there is not one for each pixel.
+    pub fn with_alpha(self, alpha: Vec<f32>) -> Self {
+        assert_eq!(alpha.len(), self.pixels.len(), "one alpha for each pixel");
+        Self { alpha: Some(alpha), ..self }
+    }
+
+    /// The share of each pixel that is covered, row by row; none if all are.
+    pub fn alpha(&self) -> Option<&[f32]> {
+        self.alpha.as_deref()
     }
 }

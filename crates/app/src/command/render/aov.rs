@@ -14,6 +14,8 @@ use crate::error::Error;
 pub(super) struct Aovs<'s> {
     list: Vec<Aov>,
     through: bool,
+    /// Names of ids, as JSON.
+    names: String,
     /// None if nothing of the list needs it.
     hits: Option<FirstHits<'s>>,
 }
@@ -29,10 +31,12 @@ pub(super) struct About {
 }
 
 impl<'s> Aovs<'s> {
-    pub(super) fn new(scene: &'s Scene, settings: &Settings, list: Vec<Aov>, through: bool) -> Self {
+    /// Those of the list, for the scene that `desc` is of.
+    pub(super) fn new(scene: &'s Scene, desc: &SceneDesc, settings: &Settings, list: Vec<Aov>, through: bool) -> Self {
         let needed = list.iter().any(|aov| aov.is_of_first_hit());
         let hits = needed.then(|| FirstHits::new(scene, settings.clone(), through));
-        Self { list, through, hits }
+        let names = if list.contains(&Aov::Id) { Names::of(desc) } else { Names::default() };
+        Self { list, through, names: serde_json::to_string(&names).unwrap_or_default(), hits }
     }
 
     /// Bytes that they take, in the making and in the file.
@@ -66,21 +70,13 @@ impl<'s> Aovs<'s> {
     }
 
     /// The picture's file.
-    pub(super) fn encode(
-        &self,
-        film: &Film,
-        desc: &SceneDesc,
-        format: ImageFormat,
-        provenance: &str,
-    ) -> Result<Vec<u8>, Error> {
+    pub(super) fn encode(&self, film: &Film, format: ImageFormat, provenance: &str) -> Result<Vec<u8>, Error> {
         let image = film.develop();
         if self.list.is_empty() {
             return Ok(format.encode(&image, provenance)?);
         }
         let hits = self.hits.as_ref().map_or(&[][..], FirstHits::pixels);
-        let names = if self.list.contains(&Aov::Id) { Names::of(desc) } else { Names::default() };
-        let names = serde_json::to_string(&names).unwrap_or_default();
-        Ok(encode_channels(&image, channels(&self.list, hits, film), &names, provenance)?)
+        Ok(encode_channels(&image, channels(&self.list, hits, film), &self.names, provenance)?)
     }
 }
 

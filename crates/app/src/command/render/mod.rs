@@ -53,7 +53,7 @@ pub(super) fn run(args: &RenderArgs) -> Result<(), Error> {
 
     let signals = Signals::listen().map_err(Error::Listen)?;
     let mut session = Session {
-        aovs: Aovs::new(&scene, &settings, aovs, args.aov_through),
+        aovs: Aovs::new(&scene, &desc, &settings, aovs, args.aov_through),
         render: Render::new(&scene, settings),
         desc: &desc,
         args,
@@ -208,7 +208,7 @@ impl Session<'_> {
 
     fn write_picture(&self) -> Result<(), Error> {
         let provenance = self.provenance().to_json();
-        let file = self.aovs.encode(self.render.film(), self.desc, self.output.format, &provenance)?;
+        let file = self.aovs.encode(self.render.film(), self.output.format, &provenance)?;
         write(&self.output.path, &file)
     }
 
