@@ -10,14 +10,14 @@ use crate::{Place, read_png};
 /// A ball before nothing, of 33 x 33 pixels.
 const BALL: &str = "-r 33x33 -D camera.look_from=[0,0,5] -D camera.look_at=[0,0,0] -D environment.constant.radiance=1";
 
-type File = Image<Layer<AnyChannels<FlatSamples>>>;
+pub(crate) type File = Image<Layer<AnyChannels<FlatSamples>>>;
 
-fn read_exr(bytes: &[u8]) -> File {
+pub(crate) fn read_exr(bytes: &[u8]) -> File {
     let reader = exr::prelude::read().no_deep_data().largest_resolution_level().all_channels().first_valid_layer();
     reader.all_attributes().from_buffered(Cursor::new(bytes)).unwrap()
 }
 
-fn names(file: &File) -> Vec<String> {
+pub(crate) fn names(file: &File) -> Vec<String> {
     file.layer_data.channel_data.list.iter().map(|c| c.name.to_string()).collect()
 }
 
@@ -138,9 +138,9 @@ fn channels_need_a_file_for_them() {
     let place = Place::new();
     let before = place.files();
     for (args, said) in [
-        ("--aov depth", "error: --aov depth needs a file of many channels, which `scene.png` is not\nhint: "),
-        ("--aov id -o a.hdr", "error: --aov id needs a file of many channels, which `a.hdr` is not\nhint: "),
-        ("--aov all -o -", "error: --aov albedo needs a file of many channels, which `-` is not\nhint: "),
+        ("--aov depth", "error: --aov needs a file of many channels, which `scene.png` is not\nhint: "),
+        ("--aov id -o a.hdr", "error: --aov needs a file of many channels, which `a.hdr` is not\nhint: "),
+        ("--aov all -o -", "error: --aov needs a file of many channels, which `-` is not\nhint: "),
         ("--aov dept -o a.exr", "error: invalid value 'dept' for '--aov <NAMES>'"),
         ("--aov depth, -o a.exr", "error: "),
         ("--aov-through -o a.exr", "error: the following required arguments were not provided"),

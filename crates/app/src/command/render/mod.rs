@@ -126,19 +126,14 @@ impl Output {
 
     /// That the format takes all that there is to write.
     fn check_channels(&self, settings: &Settings, aovs: &[Aov]) -> Result<(), Error> {
-        let refuse = |what: String| Err(Error::Usage(what));
-        if let (Some(aov), false) = (aovs.first(), self.format == ImageFormat::Exr) {
-            return refuse(format!(
-                "--aov {} needs a file of many channels, which `{}` is not\nhint: name it in .exr (-o)",
-                aov.name(),
-                self.path.display()
-            ));
+        let path = self.path.display();
+        if !aovs.is_empty() && self.format != ImageFormat::Exr {
+            let why = format!("--aov needs a file of many channels, which `{path}` is not");
+            return Err(Error::Usage(why + "\nhint: name it in .exr (-o)"));
         }
         if settings.film.transparent && self.format == ImageFormat::Hdr {
-            return refuse(format!(
-                "a transparent picture needs alpha, which `{}` cannot hold\nhint: name it in .png or .exr (-o)",
-                self.path.display()
-            ));
+            let why = format!("a transparent picture needs alpha, which `{path}` cannot hold");
+            return Err(Error::Usage(why + "\nhint: name it in .png or .exr (-o)"));
         }
         Ok(())
     }
