@@ -6,6 +6,7 @@ use std::path::PathBuf;
 use clap::builder::{PossibleValuesParser, TypedValueParser};
 use clap::{Args as ClapArgs, Parser, Subcommand, ValueEnum};
 use eyebeam_core::desc::RenderDesc;
+use eyebeam_core::film::Aov;
 use eyebeam_core::integrator::IntegratorKind;
 use eyebeam_io::scene::Override;
 
@@ -51,6 +52,18 @@ pub(crate) struct RenderArgs {
     /// How light is traced
     #[arg(long, value_parser = integrator())]
     pub(crate) integrator: Option<IntegratorKind>,
+    /// Leave the background out where the camera sees it: the picture gets an alpha
+    #[arg(long)]
+    pub(crate) transparent: bool,
+    /// Darken samples of higher luminance to this one: fewer bright specks, and less light [default: off]
+    #[arg(long, value_name = "L", value_parser = clamp)]
+    pub(crate) clamp: Option<f32>,
+    /// More channels, for .exr: depth,normal and so on, or all
+    #[arg(long, value_name = "NAMES", value_delimiter = ',', value_parser = aovs())]
+    pub(crate) aov: Vec<AovChoice>,
+    /// Albedo and normals of what perfect mirrors and smooth glass show, not theirs
+    #[arg(long, requires = "aov")]
+    pub(crate) aov_through: bool,
     /// Threads [default: the processors this process may use]
     #[arg(short, long, value_name = "N")]
     pub(crate) threads: Option<NonZeroUsize>,
@@ -76,6 +89,18 @@ pub(crate) struct RenderArgs {
     #[arg(short, long, conflicts_with = "quiet")]
     pub(crate) verbose: bool,
 }
+
+impl RenderArgs {
+    /// Each quantity that is asked for, once, in the order of their names' list.
+    pub(crate) fn aovs(&self) -> Vec<Aov> {
+        let asked = |aov: Aov| self.aov.iter().any(|choice| choice.0.is_none_or(|chosen| chosen == aov));
+        Aov::NAMES.iter().map(|(_, aov)| *aov).filter(|aov| asked(*aov)).collect()
+    }
+}
+
+/// A quantity, or all of them.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct AovChoice(Option<Aov>);
 
 #[derive(Debug, ClapArgs)]
 pub(crate) struct CheckArgs {
@@ -135,6 +160,16 @@ fn integrator() -> impl TypedValueParser<Value = IntegratorKind> {
     let named = |name: String| IntegratorKind::NAMES.iter().find(|(n, _)| *n == name).map(|(_, kind)| *kind);
     PossibleValuesParser::new(IntegratorKind::NAMES.iter().map(|(name, _)| name))
         .try_map(move |name| named(name).ok_or("there is no such integrator"))
+}
+
+fn aovs() -> impl TypedValueParser<Value = AovChoice> {
+    let named = |name: String| Aov::NAMES.iter().find(|(n, _)| *n == name).map(|(_, aov)| *aov);
+    PossibleValuesParser::new(Aov::NAMES.iter().map(|(name, _)| *name).chain(["all"])).map(move |n| AovChoice(named(n)))
+}
+
+fn clamp(text: &str) -> Result<f32, String> {
+    let clamp = text.parse().ok().filter(|clamp| (0.0..=RenderDesc::MAX_CLAMP).contains(clamp));
+    clamp.ok_or_else(|| format!("use a number from 0, which is off, to {:e}", RenderDesc::MAX_CLAMP))
 }
 
 /// `8G`: bytes, with a binary prefix.

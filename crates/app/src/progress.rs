@@ -11,6 +11,8 @@ use crate::args::ProgressStyle;
 /// How far a render is.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct State {
+    /// What the work is.
+    pub(crate) phase: &'static str,
     pub(crate) rays: u64,
     /// Share of the work that is done, 0..1.
     pub(crate) done: f64,
@@ -106,7 +108,7 @@ impl Progress {
                     rays_per_s,
                     error: state.error,
                     eta_s: left,
-                    phase: "render",
+                    phase: state.phase,
                 };
                 say(&serde_json::to_string(&line).unwrap_or_default());
             }

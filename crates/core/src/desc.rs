@@ -5,6 +5,7 @@
 //! exist: [`SceneDesc::check`] tells what does not, and [`Scene::build`](crate::scene::Scene::build) refuses it.
 
 use std::collections::BTreeMap;
+use std::iter;
 
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
@@ -65,6 +66,12 @@ pub struct RenderDesc {
     pub filter: FilterDesc,
     /// How one of many lights is chosen.
     pub light_selection: LightSelection,
+    /// Whether the background is left out where the camera sees it, directly or through smooth glass: the picture has an
+    /// alpha. It lights the scene and shows in mirrors as ever.
+    pub transparent: bool,
+    /// Samples of higher luminance are darkened to this one, which takes away bright specks, and light; 0 is off.
+    #[schemars(range(min = 0.0))]
+    pub clamp: f32,
 }
 
 impl Default for RenderDesc {
@@ -79,6 +86,8 @@ impl Default for RenderDesc {
             sampler: SamplerKind::default(),
             filter: FilterDesc::default(),
             light_selection: LightSelection::default(),
+            transparent: false,
+            clamp: 0.0,
         }
     }
 }
@@ -90,13 +99,17 @@ impl RenderDesc {
     pub const MAX_SPP: u32 = 1 << 24;
     /// The most edges of a path.
     pub const MAX_DEPTH: u32 = 1_000_000;
+    /// The highest luminance to clamp to: that of the brightest lamp.
+    pub const MAX_CLAMP: f32 = 1e9;
 
-    /// The same picture by the plainest means: `weekend`, independent numbers, a box for a pixel. What theory is about.
+    /// The same picture by the plainest means: `weekend`, independent numbers, a box for a pixel, nothing clamped. What
+    /// theory is about.
     pub fn plain(&self) -> Self {
         Self {
             integrator: IntegratorKind::Weekend,
             sampler: SamplerKind::Independent,
             filter: FilterDesc::Box(BoxFilter::default()),
+            clamp: 0.0,
             ..self.clone()
         }
     }
@@ -106,6 +119,7 @@ impl RenderDesc {
         c.count("height", self.height, Self::MAX_SIDE);
         c.count("spp", self.spp, Self::MAX_SPP);
         c.within("filter", |c| self.filter.check(c));
+        c.in_range("clamp", self.clamp, 0.0, Self::MAX_CLAMP);
         if self.max_depth > Self::MAX_DEPTH {
             let hint = format!("use a whole number from 0 to {}", Self::MAX_DEPTH);
             c.problem(
@@ -145,6 +159,16 @@ impl SceneDesc {
             }
         });
         c.into_problems()
+    }
+
+    /// Names of all shapes, such as `sphere.0`: the first is that of id 1 in a picture.
+    pub fn object_names(&self) -> impl Iterator<Item = String> {
+        self.shape.iter().map(|(kind, index, _)| format!("{kind}.{index}"))
+    }
+
+    /// Names of all materials: the first is that of id 1 in a picture, what shapes without a material are made of.
+    pub fn material_names(&self) -> impl Iterator<Item = &str> {
+        iter::once(Self::DEFAULT_MATERIAL).chain(self.material.keys().map(String::as_str))
     }
 
     fn check_material_name(&self, name: Option<&str>, c: &mut Checker) {

@@ -81,6 +81,12 @@ impl<'s> SurfaceInteraction<'s> {
         self.agrees(wi_world, sample.wi).then(|| (sample, self.spawn_ray(wi_world)))
     }
 
+    /// Whether the surface is smooth glass that the light of a sample comes through.
+    #[inline]
+    pub fn is_clear(&self, sample: &BsdfSample) -> bool {
+        sample.delta && sample.wi.z * self.wo.z < 0.0
+    }
+
     /// A ray that leaves along `w` and does not meet this surface again at its start.
     #[inline]
     pub fn spawn_ray(&self, w: Vec3) -> Ray {

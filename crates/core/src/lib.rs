@@ -31,6 +31,7 @@ pub mod camera;
 pub mod color;
 pub mod desc;
 pub mod film;
+pub mod first_hits;
 pub mod integrator;
 pub mod interaction;
 pub mod light;

@@ -5,13 +5,13 @@
 //! number of threads, and wherever a render was stopped and resumed.
 
 use std::num::NonZeroUsize;
-use std::sync::atomic::{AtomicBool, AtomicU64, Ordering::Relaxed};
+use std::sync::atomic::{AtomicBool, AtomicU64, AtomicUsize, Ordering::Relaxed};
 use std::sync::{Mutex, PoisonError};
 use std::thread;
 
 use crate::camera::Camera;
 use crate::desc::RenderDesc;
-use crate::film::{Film, Filter, FilterDesc};
+use crate::film::{Film, FilmOptions, Filter, FilterDesc};
 use crate::integrator::{Integrator, IntegratorKind, Unit};
 use crate::sampler::SamplerKind;
 use crate::scene::Scene;
@@ -35,16 +35,30 @@ pub struct Settings {
     pub sampler: SamplerKind,
     /// How a pixel is made of the places around it.
     pub filter: FilterDesc,
+    /// What becomes of samples.
+    pub film: FilmOptions,
     /// Threads that render; all processors that the process may use by default.
     pub threads: NonZeroUsize,
 }
 
 impl From<&RenderDesc> for Settings {
     fn from(desc: &RenderDesc) -> Self {
-        let RenderDesc { width, height, spp, max_depth, seed, integrator, sampler, filter, light_selection: _ } =
-            desc.clone();
+        let RenderDesc {
+            width,
+            height,
+            spp,
+            max_depth,
+            seed,
+            integrator,
+            sampler,
+            filter,
+            transparent,
+            clamp,
+            light_selection: _,
+        } = desc.clone();
+        let film = FilmOptions { transparent, clamp, variance: false };
         let threads = thread::available_parallelism().unwrap_or(NonZeroUsize::MIN);
-        Self { width, height, spp, max_depth, seed, integrator, sampler, filter, threads }
+        Self { width, height, spp, max_depth, seed, integrator, sampler, filter, film, threads }
     }
 }
 
@@ -82,7 +96,7 @@ impl<'s> Render<'s> {
             camera: scene.camera(settings.width, settings.height),
             filter: Filter::new(&settings.filter),
             integrator: settings.integrator.build(settings.max_depth),
-            film: Film::new(settings.width, settings.height),
+            film: Film::new(settings.width, settings.height, settings.film),
             settings,
             next_unit: 0,
         }
@@ -99,29 +113,14 @@ impl<'s> Render<'s> {
         let samples = first..self.settings.spp.min(first + Self::SAMPLES_PER_PASS);
         let numbers = self.settings.sampler.samples(self.settings.seed, samples.clone());
         let unit = Unit { camera: &self.camera, filter: &self.filter, numbers: &numbers, samples };
-        let tiles: Vec<_> = self.film.tiles_mut().iter_mut().map(Mutex::new).collect();
-        let next_tile = AtomicU64::new(self.next_unit % tile_count);
-        let work = || {
-            while !monitor.pause.load(Relaxed) {
-                let Some(tile) = tiles.get(next_tile.fetch_add(1, Relaxed) as usize) else {
-                    break;
-                };
-                let mut tile = tile.lock().unwrap_or_else(PoisonError::into_inner);
-                let rays = self.integrator.render(self.scene, &unit, &mut tile);
-                monitor.rays.fetch_add(rays, Relaxed);
-                monitor.units.fetch_add(1, Relaxed);
-            }
-        };
-        thread::scope(|scope| {
-            for _ in 1..self.settings.threads.get().min(tiles.len()) {
-                // Fewer threads than asked for make the same picture.
-                if thread::Builder::new().spawn_scoped(scope, work).is_err() {
-                    break;
-                }
-            }
-            work();
+        let begun = self.next_unit % tile_count;
+        let tiles = self.film.tiles_mut().iter_mut().skip(begun as usize).collect();
+        let done = in_parallel(self.settings.threads, tiles, &monitor.pause, |tile| {
+            let rays = self.integrator.render(self.scene, &unit, tile);
+            monitor.rays.fetch_add(rays, Relaxed);
+            monitor.units.fetch_add(1, Relaxed);
         });
-        self.next_unit = pass * tile_count + next_tile.into_inner().min(tile_count);
+        self.next_unit += done as u64;
     }
 
     /// Units of work in the whole render.
@@ -143,4 +142,34 @@ impl<'s> Render<'s> {
     pub fn settings(&self) -> &Settings {
         &self.settings
     }
+}
+
+/// Calls `work` with each item, from several threads; leaves the last ones out when asked to pause, and returns the number
+/// of those that are done.
+pub(crate) fn in_parallel<T: Send>(
+    threads: NonZeroUsize,
+    items: Vec<T>,
+    pause: &AtomicBool,
+    work: impl Fn(&mut T) + Sync,
+) -> usize {
+    let items: Vec<_> = items.into_iter().map(Mutex::new).collect();
+    let next = AtomicUsize::new(0);
+    let run = || {
+        while !pause.load(Relaxed) {
+            let Some(item) = items.get(next.fetch_add(1, Relaxed)) else {
+                break;
+            };
+            work(&mut item.lock().unwrap_or_else(PoisonError::into_inner));
+        }
+    };
+    thread::scope(|scope| {
+        for _ in 1..threads.get().min(items.len()) {
+            // Fewer threads than asked for make the same picture.
+            if thread::Builder::new().spawn_scoped(scope, run).is_err() {
+                break;
+            }
+        }
+        run();
+    });
+    next.into_inner().min(items.len())
 }

@@ -4,14 +4,16 @@ use std::collections::BTreeMap;
 
 pub use eyebeam_bvh::{Bvh, Ray};
 
-use eyebeam_bvh::{BuildError, Primitive, Quality};
+use eyebeam_bvh::{BuildError, Hit, Primitive, Quality};
+use glam::Vec2;
 
 use crate::camera::{Camera, CameraDesc};
 use crate::desc::SceneDesc;
+use crate::film::Ids;
 use crate::interaction::SurfaceInteraction;
 use crate::light::{AreaLight, EnvironmentSampling, Light, Lights};
 use crate::material::MaterialDesc;
-use crate::shape::{Smooth, SurfacePoint};
+use crate::shape::{Smooth, SurfacePoint, surface_uv};
 use crate::validate::Problem;
 
 /// How rays find what they hit.
@@ -116,12 +118,29 @@ impl Scene {
     #[inline]
     pub fn intersect(&self, ray: &Ray) -> Option<SurfaceInteraction<'_>> {
         let hit = self.bvh.intersect(ray)?;
+        Some(self.interaction(ray, &hit))
+    }
+
+    #[inline]
+    fn interaction(&self, ray: &Ray, hit: &Hit) -> SurfaceInteraction<'_> {
         let object = &self.objects[self.object_of[hit.prim as usize] as usize];
         let primitive = hit.prim - object.first_primitive;
-        let surface = self.bvh.surface(&hit, ray.time);
-        let point = SurfacePoint::new(&surface, ray, &hit, object.smooth.as_ref(), primitive);
+        let surface = self.bvh.surface(hit, ray.time);
+        let point = SurfacePoint::new(&surface, ray, hit, object.smooth.as_ref(), primitive);
         let light = object.first_light.map(|first| first + primitive);
-        Some(SurfaceInteraction::new(point, ray.d, &self.materials[object.material as usize], light))
+        SurfaceInteraction::new(point, ray.d, &self.materials[object.material as usize], light)
+    }
+
+    /// As [`intersect`](Self::intersect), with what a picture can tell of the surface besides.
+    pub(crate) fn look(&self, ray: &Ray) -> Option<Look<'_>> {
+        let hit = self.bvh.intersect(ray)?;
+        let si = self.interaction(ray, &hit);
+        let object = self.object_of[hit.prim as usize];
+        // One more than the index; none wraps around to 0.
+        let [object, material, instance] =
+            [object, self.objects[object as usize].material, hit.instances[0]].map(|index| index.wrapping_add(1));
+        let uv = surface_uv(&self.bvh.surface(&hit, ray.time), &hit, si.point().n);
+        Some(Look { si, t: hit.t, uv, ids: Ids { object, material, instance } })
     }
 
     /// Whether anything is in the way of the ray before its `t_max`.
@@ -145,6 +164,16 @@ impl Scene {
     pub fn primitive_count(&self) -> usize {
         self.object_of.len()
     }
+}
+
+/// What a ray meets first.
+pub(crate) struct Look<'s> {
+    pub(crate) si: SurfaceInteraction<'s>,
+    /// Distance along the ray, metres.
+    pub(crate) t: f32,
+    /// The point on the shape, each in 0..1.
+    pub(crate) uv: Vec2,
+    pub(crate) ids: Ids,
 }
 
 /// The lights that primitives of a material are.

@@ -15,22 +15,24 @@ fn commands(text: &str) -> impl Iterator<Item = &str> {
 fn commands_of_the_documentation_run() {
     let root = Path::new(env!("CARGO_MANIFEST_DIR")).join("../..");
     let mut count = 0;
-    for name in ["README.md", "docs/formats/scene.md", "docs/performance.md"] {
+    for name in ["README.md", "docs/formats/pictures.md", "docs/formats/scene.md", "docs/performance.md"] {
         for command in commands(&fs::read_to_string(root.join(name)).unwrap()) {
             let place = Place::new();
             let (_, args) = command.split_once("render ").unwrap();
             // Small, and with its output here: what an option says last does not count twice, so theirs go.
             let mut kept = Vec::new();
+            let mut output = "out.png".to_owned();
             let mut words = args.split_whitespace();
             while let Some(word) = words.next() {
                 match word {
-                    "-o" | "-r" | "--spp" => drop(words.next()),
+                    "-r" | "--spp" => drop(words.next()),
+                    "-o" => output = format!("out.{}", words.next().unwrap().rsplit('.').next().unwrap()),
                     _ => kept.push(word.replace("scenes/", &format!("{}/scenes/", root.display()))),
                 }
             }
-            let run = place.run(&format!("render {} -o out.png -r 16x9 --spp 1", kept.join(" ")));
+            let run = place.run(&format!("render {} -o {output} -r 16x9 --spp 1", kept.join(" ")));
             assert_eq!(run.code, Some(0), "{name}: {command}\n{}", run.stderr);
-            assert!(place.path("out.png").exists());
+            assert!(place.path(&output).exists());
             count += 1;
         }
     }

@@ -1,5 +1,6 @@
 //! The command as a user meets it: what it prints, writes and returns.
 
+mod aov;
 mod determinism;
 mod examples;
 mod output;

@@ -5,6 +5,7 @@ use std::process::{Child, ChildStderr, Command};
 use std::thread::sleep;
 use std::time::{Duration, Instant};
 
+use crate::aov::{names, read_exr};
 use crate::{Place, read_png};
 
 /// Would take days.
@@ -66,6 +67,15 @@ fn stop_leaves_a_picture() {
         assert!(min > 0 && max < 16_777_216 && max - min <= 16, "{min} to {max}");
         assert_eq!(place.files().len(), 3, "nothing is left beside");
     }
+}
+
+#[test]
+fn stop_leaves_channels() {
+    let place = Place::new();
+    let render = Running::start(&place, &format!("{LONG} --aov depth").replace("a.png", "a.exr"));
+    render.send("INT");
+    render.ends_with(130);
+    assert_eq!(names(&read_exr(&place.read("a.exr"))), ["A", "B", "G", "R", "Z"]);
 }
 
 #[test]

@@ -64,7 +64,7 @@ fn stats() {
     assert_eq!(stats["scene_hash"].as_str().unwrap().len(), 64);
     let settings = serde_json::json!({
         "width": 32, "height": 18, "spp": 20, "max_depth": 50, "seed": 5, "integrator": "path", "sampler": "sobol",
-        "filter": {"blackman-harris": {"radius": 1.5}}, "light_selection": "tree"
+        "filter": {"blackman-harris": {"radius": 1.5}}, "light_selection": "tree", "transparent": false, "clamp": 0.0
     });
     assert_eq!(stats["settings"], settings);
     assert_eq!(stats["spp"], serde_json::json!({"min": 20, "mean": 20.0, "max": 20}));
@@ -72,7 +72,8 @@ fn stats() {
     assert!((0.0..1.0).contains(&stats["error"]["mean"].as_f64().unwrap()));
     assert!(stats["error"]["p95"].as_f64() > stats["error"]["mean"].as_f64());
     assert_eq!((&stats["nan_count"], &stats["clamped_energy"], &stats["threads"]), (&0.into(), &0.0.into(), &2.into()));
-    for phase in ["load", "build", "render", "write"] {
+    assert_eq!(stats["aov"], serde_json::json!({"names": [], "through": false, "spp": 0}));
+    for phase in ["load", "build", "aov", "render", "write"] {
         assert!(stats["seconds"][phase].as_f64().unwrap() >= 0.0);
     }
     assert!(stats["rays"].as_u64().unwrap() >= 32 * 18 * 20 && stats["rays_per_s"].as_f64().unwrap() > 0.0);

@@ -61,6 +61,16 @@ impl Camera {
         }
     }
 
+    /// As [`ray`](Self::ray), through the middle of the lens.
+    pub fn central_ray(&self, film: Vec2) -> Option<Ray> {
+        match self {
+            Self::ThinLens(camera) => Some(camera.central_ray(film)),
+            Self::Orthographic(camera) => Some(camera.ray(film)),
+            Self::Panorama(camera) => Some(camera.ray(film)),
+            Self::Fisheye(camera) => camera.ray(film),
+        }
+    }
+
     /// The point of the film, perhaps outside of the picture, that shows a point of the world if the lens is a pinhole;
     /// none if the camera does not look there: behind the eye, or outside of the circle of a fisheye.
     pub fn project(&self, p: Vec3) -> Option<Vec2> {

@@ -57,13 +57,25 @@ impl ThinLens {
 
     #[inline]
     pub(super) fn ray(&self, film: Vec2, sampler: &mut Sampler) -> Ray {
-        let target = (self.pixel * (film - self.center)).extend(1.0);
         if self.lens == Vec2::ZERO {
-            return Ray::new(self.pose.eye, self.pose.to_world(target).normalize());
+            return self.central_ray(film);
         }
+        let target = self.target(film);
         let start = (self.lens * self.aperture.sample(sampler.get_2d())).extend(0.0);
         let o = self.pose.eye + self.focus * self.pose.to_world(start);
         Ray::new(o, self.pose.to_world(target - start).normalize())
+    }
+
+    /// As that of a pinhole.
+    #[inline]
+    pub(super) fn central_ray(&self, film: Vec2) -> Ray {
+        Ray::new(self.pose.eye, self.pose.to_world(self.target(film)).normalize())
+    }
+
+    /// The local point on the plane at distance 1 that the pinhole shows there.
+    #[inline]
+    fn target(&self, film: Vec2) -> Vec3 {
+        (self.pixel * (film - self.center)).extend(1.0)
     }
 
     /// Where the pinhole shows a local point.

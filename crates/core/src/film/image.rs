@@ -1,17 +1,18 @@
 //! A picture: linear radiance, pixel by pixel.
 
-/// Linear Rec. 709 red, green and blue; row by row from the top left.
+/// Linear Rec. 709 red, green and blue, times alpha if there is one; row by row from the top left.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Image {
     width: u32,
     height: u32,
     pixels: Vec<[f32; 3]>,
+    alpha: Option<Vec<f32>>,
 }
 
 impl Image {
     /// A black picture.
     pub fn new(width: u32, height: u32) -> Self {
-        Self { width, height, pixels: vec![[0.0; 3]; width as usize * height as usize] }
+        Self { width, height, pixels: vec![[0.0; 3]; width as usize * height as usize], alpha: None }
     }
 
     /// Pixels in a row.
@@ -54,5 +55,19 @@ impl Image {
     pub fn set_pixel(&mut self, x: u32, y: u32, rgb: [f32; 3]) {
         let index = self.index(x, y);
         self.pixels[index] = rgb;
+    }
+
+    /// The same with the share of each pixel that is covered, 0..1, which its colour has been multiplied by.
+    ///
+    /// # Panics
+    /// If there is not one for each pixel.
+    pub fn with_alpha(self, alpha: Vec<f32>) -> Self {
+        assert_eq!(alpha.len(), self.pixels.len(), "one alpha for each pixel");
+        Self { alpha: Some(alpha), ..self }
+    }
+
+    /// The share of each pixel that is covered, row by row; none if all are.
+    pub fn alpha(&self) -> Option<&[f32]> {
+        self.alpha.as_deref()
     }
 }

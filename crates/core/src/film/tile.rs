@@ -4,6 +4,7 @@ use glam::UVec2;
 
 use crate::color::{Rgb, Spectrum, luminance};
 use crate::film::exact::Exact;
+use crate::film::{FilmOptions, PixelDetail, Seen};
 
 /// The samples of one pixel, added up.
 #[derive(Clone, Copy, Debug, Default)]
@@ -16,15 +17,16 @@ pub struct PixelSum {
 }
 
 /// Brighter samples count as this bright in the estimate of the error: 2²⁴ such squares fit into the sum.
-const BRIGHTEST_SQUARED: f32 = 524_288.0;
+pub(super) const BRIGHTEST_SQUARED: f32 = 524_288.0;
 
 impl PixelSum {
-    /// Adds one sample. What is not finite, or beyond ±2³², is dropped and counted.
+    /// Adds one sample, and says so. What is not finite, or beyond ±2³², is dropped and counted.
     #[inline]
-    pub fn add(&mut self, l: Spectrum) {
+    pub fn add(&mut self, l: Spectrum) -> bool {
         let rgb = l.to_rgb();
-        if rgb.iter().all(|c| c.abs() < Exact::LIMIT) {
-            let y = Rgb(rgb).luminance().min(BRIGHTEST_SQUARED);
+        let counts = rgb.iter().all(|c| c.abs() < Exact::LIMIT);
+        if counts {
+            let y = Rgb(rgb).luminance().clamp(-BRIGHTEST_SQUARED, BRIGHTEST_SQUARED);
             for (sum, c) in self.rgb.iter_mut().zip(rgb) {
                 *sum += Exact::new(c);
             }
@@ -33,6 +35,7 @@ impl PixelSum {
         } else {
             self.dropped += 1;
         }
+        counts
     }
 
     /// Samples that count.
@@ -45,7 +48,7 @@ impl PixelSum {
         self.dropped
     }
 
-    fn mean_f64(&self) -> [f64; 3] {
+    pub(super) fn mean_f64(&self) -> [f64; 3] {
         self.rgb.map(|sum| sum.to_f64() / f64::from(self.count.max(1)))
     }
 
@@ -68,12 +71,34 @@ impl PixelSum {
     }
 }
 
+/// A pixel to add samples to.
+#[derive(Debug)]
+pub struct PixelMut<'t> {
+    sum: &'t mut PixelSum,
+    detail: Option<&'t mut PixelDetail>,
+    options: &'t FilmOptions,
+}
+
+impl PixelMut<'_> {
+    /// Adds what one camera ray brought, times the filter's weight.
+    #[inline]
+    pub fn add(&mut self, seen: &Seen, weight: f32) {
+        match &mut self.detail {
+            None => drop(self.sum.add(seen.light() * weight)),
+            Some(detail) => detail.add(self.sum, seen, weight, self.options),
+        }
+    }
+}
+
 /// A part of the film: [`SIDE`](Self::SIDE)² pixels, or fewer at the right and bottom edge.
 #[derive(Clone, Debug)]
 pub struct Tile {
     origin: UVec2,
     width: u32,
+    options: FilmOptions,
     sums: Vec<PixelSum>,
+    /// One for each sum, or none at all.
+    details: Vec<PixelDetail>,
 }
 
 impl Tile {
@@ -81,13 +106,21 @@ impl Tile {
     pub const SIDE: u32 = 16;
 
     /// The tiles of a film, row by row.
-    pub(super) fn cover(width: u32, height: u32) -> Vec<Self> {
+    pub(super) fn cover(width: u32, height: u32, options: FilmOptions) -> Vec<Self> {
         let starts = |extent: u32| (0..extent).step_by(Self::SIDE as usize);
         starts(height)
             .flat_map(|y| starts(width).map(move |x| UVec2::new(x, y)))
             .map(|origin| {
                 let size = (UVec2::new(width, height) - origin).min(UVec2::splat(Self::SIDE));
-                Self { origin, width: size.x, sums: vec![PixelSum::default(); (size.x * size.y) as usize] }
+                let count = (size.x * size.y) as usize;
+                let details = if options.need_detail() { count } else { 0 };
+                Self {
+                    origin,
+                    width: size.x,
+                    options,
+                    sums: vec![PixelSum::default(); count],
+                    details: vec![PixelDetail::default(); details],
+                }
             })
             .collect()
     }
@@ -101,11 +134,17 @@ impl Tile {
         self.sums.iter().enumerate().map(|(i, sum)| (self.position(i), sum))
     }
 
-    /// Calls `f` with each pixel's position on the film and its sum.
+    /// As [`pixels`](Self::pixels), with their details; none if the film keeps none.
+    pub fn details(&self) -> impl Iterator<Item = (UVec2, &PixelSum, &PixelDetail)> {
+        self.pixels().zip(&self.details).map(|((pixel, sum), detail)| (pixel, sum, detail))
+    }
+
+    /// Calls `f` with each pixel's position on the film and the pixel.
     #[inline]
-    pub fn for_each_pixel(&mut self, mut f: impl FnMut(UVec2, &mut PixelSum)) {
+    pub fn for_each_pixel(&mut self, mut f: impl FnMut(UVec2, PixelMut<'_>)) {
         for i in 0..self.sums.len() {
-            f(self.position(i), &mut self.sums[i]);
+            let position = self.position(i);
+            f(position, PixelMut { sum: &mut self.sums[i], detail: self.details.get_mut(i), options: &self.options });
         }
     }
 }

@@ -1,5 +1,6 @@
 //! Integrators: from a camera ray to the light that it brings.
 
+mod first_hit;
 mod path;
 mod weekend;
 
@@ -11,11 +12,11 @@ use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 use crate::camera::Camera;
-use crate::color::Spectrum;
-use crate::film::{Filter, Tile};
+use crate::film::{Filter, Seen, Tile};
 use crate::sampler::{Sampler, Samples};
 use crate::scene::Scene;
 
+pub(crate) use first_hit::first_hit;
 pub use path::Path;
 pub use weekend::Weekend;
 
@@ -63,18 +64,33 @@ pub struct Unit<'a> {
 }
 
 impl Unit<'_> {
-    /// Adds one `radiance(ray, sampler)` for each sample of each pixel: the ray goes through a place of the film around the
-    /// pixel's centre, as the filter likes.
+    /// Adds what `see(ray, sampler)` says for each sample of each pixel.
     #[inline]
-    pub fn for_each_sample(&self, tile: &mut Tile, mut radiance: impl FnMut(Ray, &mut Sampler<'_>) -> Spectrum) {
-        tile.for_each_pixel(|pixel: UVec2, sum| {
-            let center = pixel.as_vec2() + 0.5;
+    pub fn for_each_sample(&self, tile: &mut Tile, mut see: impl FnMut(Ray, &mut Sampler<'_>) -> Seen) {
+        tile.for_each_pixel(|pixel, mut film| {
             for sample in self.samples.clone() {
-                let mut sampler = self.numbers.sampler(pixel, sample);
-                let place = self.filter.sample(sampler.get_2d());
-                let ray = self.camera.ray(center + place.offset, &mut sampler);
-                sum.add(ray.map_or(Spectrum::BLACK, |ray| radiance(ray, &mut sampler) * place.weight));
+                let CameraSample { ray, weight, mut sampler } = self.camera_sample(pixel, sample);
+                film.add(&ray.map_or(Seen::NOTHING, |ray| see(ray, &mut sampler)), weight);
             }
         });
     }
+
+    /// The ray of a sample: it goes through a place of the film around the pixel's centre, as the filter likes.
+    #[inline]
+    fn camera_sample(&self, pixel: UVec2, sample: u32) -> CameraSample<'_> {
+        let mut sampler = self.numbers.sampler(pixel, sample);
+        let place = self.filter.sample(sampler.get_2d());
+        let ray = self.camera.ray(pixel.as_vec2() + 0.5 + place.offset, &mut sampler);
+        CameraSample { ray, weight: place.weight, sampler }
+    }
+}
+
+/// A ray from the camera.
+struct CameraSample<'n> {
+    /// None where the film is black.
+    ray: Option<Ray>,
+    /// The filter's weight.
+    weight: f32,
+    /// The numbers for what it meets.
+    sampler: Sampler<'n>,
 }

@@ -9,7 +9,7 @@
 use eyebeam_bvh::Ray;
 
 use crate::color::Spectrum;
-use crate::film::Tile;
+use crate::film::{Seen, Tile};
 use crate::integrator::{Integrator, Unit};
 use crate::interaction::SurfaceInteraction;
 use crate::light::{Scattered, power_heuristic};
@@ -34,18 +34,20 @@ impl Integrator for Path {
 
 impl Path {
     #[inline]
-    fn radiance(&self, scene: &Scene, mut ray: Ray, sampler: &mut Sampler<'_>, rays: &mut u64) -> Spectrum {
+    fn radiance(&self, scene: &Scene, mut ray: Ray, sampler: &mut Sampler<'_>, rays: &mut u64) -> Seen {
         let lights = scene.lights();
         let mut l = Spectrum::BLACK;
         let mut beta = Spectrum::ONE;
         // Refraction squeezes light into another solid angle; that is no reason to end or keep a path.
         let mut eta_sq = 1.0;
         let mut scattered: Option<Scattered> = None;
+        // Nothing but smooth glass so far, through which the background shows.
+        let mut clear = true;
         for depth in 1..=self.max_depth {
             *rays += 1;
             // What is there?
             let Some(si) = scene.intersect(&ray) else {
-                return l + beta * lights.le(ray.d, scattered);
+                return Seen::outside(l, beta * lights.le(ray.d, scattered), clear);
             };
             // Its own light
             if let Some(light) = si.light() {
@@ -65,6 +67,7 @@ impl Path {
             };
             beta *= sample.weight;
             eta_sq *= sample.eta * sample.eta;
+            clear &= si.is_clear(&sample);
             scattered = (!sample.delta).then(|| Scattered { p: si.point().p, n: si.point().ns, pdf: sample.pdf });
             ray = next;
             // Russian roulette
@@ -76,7 +79,7 @@ impl Path {
                 beta = beta * (1.0 / survival);
             }
         }
-        l
+        Seen::surface(l)
     }
 
     /// Paths that carry more than one part of this of the light from their end are sure to go on. To end them sooner saves

@@ -9,7 +9,7 @@
 use eyebeam_bvh::Ray;
 
 use crate::color::Spectrum;
-use crate::film::Tile;
+use crate::film::{Seen, Tile};
 use crate::integrator::{Integrator, Unit};
 use crate::sampler::Sampler;
 use crate::scene::Scene;
@@ -31,21 +31,24 @@ impl Integrator for Weekend {
 
 impl Weekend {
     #[inline]
-    fn ray_color(&self, scene: &Scene, mut ray: Ray, sampler: &mut Sampler<'_>, rays: &mut u64) -> Spectrum {
+    fn ray_color(&self, scene: &Scene, mut ray: Ray, sampler: &mut Sampler<'_>, rays: &mut u64) -> Seen {
         let mut l = Spectrum::BLACK;
         let mut beta = Spectrum::ONE;
+        // Nothing but smooth glass so far, through which the background shows.
+        let mut clear = true;
         for _ in 0..self.max_depth {
             *rays += 1;
             let Some(si) = scene.intersect(&ray) else {
-                return l + beta * scene.lights().le(ray.d, None);
+                return Seen::outside(l, beta * scene.lights().le(ray.d, None), clear);
             };
             l += beta * si.le();
             let Some((sample, scattered)) = si.scatter(&si.bsdf(), sampler) else {
                 break;
             };
             beta *= sample.weight;
+            clear &= si.is_clear(&sample);
             ray = scattered;
         }
-        l
+        Seen::surface(l)
     }
 }

@@ -113,6 +113,10 @@ pub struct ConductorBsdf {
 }
 
 impl ConductorBsdf {
+    pub(crate) fn albedo(&self) -> Spectrum {
+        self.reflectance.at(1.0)
+    }
+
     #[inline]
     pub(crate) fn is_delta(&self) -> bool {
         self.ggx.alpha() < Ggx::MIN_ALPHA

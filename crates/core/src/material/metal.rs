@@ -70,6 +70,10 @@ impl MetalBsdf {
     /// Rougher than this, the lobe has a density that single precision can hold.
     const MIN_ROUGHNESS: f32 = 1e-4;
 
+    pub(crate) fn albedo(&self) -> Spectrum {
+        self.albedo
+    }
+
     #[inline]
     pub(crate) fn is_delta(&self) -> bool {
         self.roughness < Self::MIN_ROUGHNESS

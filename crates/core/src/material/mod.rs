@@ -147,6 +147,16 @@ impl Bsdf {
         self.eval_pdf(wo, wi).1
     }
 
+    /// About the share of light from straight above that is scattered back, whatever the roughness; 1 for what is clear.
+    pub fn albedo(&self) -> Spectrum {
+        match self {
+            Self::Lambertian(b) => b.albedo,
+            Self::Metal(b) => b.albedo(),
+            Self::Conductor(b) => b.albedo(),
+            Self::Dielectric(_) => Spectrum::ONE,
+        }
+    }
+
     /// Whether all samples are delta, so that `eval` and `pdf` are 0 everywhere.
     #[inline]
     pub fn is_delta(&self) -> bool {

@@ -142,6 +142,15 @@ impl SurfacePoint {
     }
 }
 
+/// Where on its shape a point of normal `n` is, each in 0..1: along the edges `u` and `v` of a quad, weights of the second
+/// and third vertex of a triangle, longitude and latitude on a sphere.
+pub(crate) fn surface_uv(surface: &Surface, hit: &Hit, n: Vec3) -> Vec2 {
+    match surface {
+        Surface::Sphere(_) => sphere::uv(n),
+        Surface::Flat { .. } => Vec2::new(hit.u, hit.v),
+    }
+}
+
 /// Moves what is nearer than `margin` to an edge of a triangle or quad away from it: otherwise rounding could put the point
 /// into or behind the surface that it meets there, and rays would leave a closed room.
 #[inline]

@@ -7,8 +7,10 @@
 //! material = "glass"
 //! ```
 
+use std::f32::consts::PI;
+
 use eyebeam_bvh::{Hit, Primitive, Ray, Sphere};
-use glam::Vec3;
+use glam::{Vec2, Vec3, Vec3Swizzles};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
@@ -51,4 +53,31 @@ pub(super) fn point(sphere: &Sphere, ray: &Ray, hit: &Hit) -> SurfacePoint {
     let center = sphere.center.as_dvec3();
     let on_ray = ray.o.as_dvec3() + ray.d.as_dvec3() * f64::from(hit.t);
     SurfacePoint::on_sphere(center, sphere.radius.into(), (on_ray - center).normalize())
+}
+
+/// Longitude and latitude of a unit normal, each in 0..1: eastwards from −x over +z, as seen from above against the clock,
+/// and from the lowest point to the highest.
+pub(super) fn uv(n: Vec3) -> Vec2 {
+    let longitude = 0.5 + libm::atan2f(-n.z, n.x) / (2.0 * PI);
+    let latitude = 0.5 + libm::atan2f(n.y, n.xz().length()) / PI;
+    Vec2::new(longitude, latitude)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn longitude_and_latitude() {
+        for (n, at) in [
+            (Vec3::Z, [0.25, 0.5]),
+            (Vec3::X, [0.5, 0.5]),
+            (Vec3::NEG_Z, [0.75, 0.5]),
+            (Vec3::new(0.6, 0.8, 0.0), [0.5, 0.5 + 0.8_f32.asin() / PI]),
+            (Vec3::new(1e-30, -1.0, 0.0), [0.5, 0.0]),
+            (Vec3::new(1e-30, 1.0, 0.0), [0.5, 1.0]),
+        ] {
+            assert!((uv(n) - Vec2::from(at)).abs().max_element() < 1e-6, "{n}: {}", uv(n));
+        }
+    }
 }

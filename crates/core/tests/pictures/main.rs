@@ -3,6 +3,7 @@
 
 mod agreement;
 mod analytic;
+mod aov;
 mod determinism;
 mod error;
 mod furnace;

@@ -5,7 +5,7 @@ use std::num::NonZeroUsize;
 use eyebeam_core::camera::CameraDesc;
 use eyebeam_core::color::Rgb;
 use eyebeam_core::desc::SceneDesc;
-use eyebeam_core::film::{BoxFilter, Film, FilterDesc, Tile};
+use eyebeam_core::film::{BoxFilter, Film, FilmOptions, FilterDesc, Tile};
 use eyebeam_core::integrator::IntegratorKind;
 use eyebeam_core::light::{Constant, EnvironmentDesc, NoLight};
 use eyebeam_core::material::{Emissive, Lambertian, MaterialDesc};
@@ -30,6 +30,7 @@ pub(crate) fn settings(side: u32, spp: u32, max_depth: u32) -> Settings {
         integrator: IntegratorKind::Weekend,
         sampler: SamplerKind::Independent,
         filter: BOX,
+        film: FilmOptions::default(),
         threads: NonZeroUsize::new(2).unwrap(),
     }
 }

@@ -1,10 +1,14 @@
-//! OpenEXR: 32 bit linear RGBA, losslessly compressed.
+//! OpenEXR: 32 bit linear RGBA and any other channels, losslessly compressed.
 
 use std::io::Cursor;
 
+use exr::image::write::channels::WritableChannels;
+use exr::image::write::layers::WritableLayers;
 use exr::prelude::*;
+use eyebeam_core::film::{self, Image as Picture};
 
 use crate::error::Error;
+use crate::image::ascii;
 
 /// Corners of the colour space and its white: Rec. 709, D65.
 pub(super) const REC_709: attribute::Chromaticities = attribute::Chromaticities {
@@ -14,19 +18,73 @@ pub(super) const REC_709: attribute::Chromaticities = attribute::Chromaticities 
     white: Vec2(0.3127, 0.329),
 };
 
-pub(super) fn encode(image: &eyebeam_core::film::Image, provenance: &str) -> std::result::Result<Vec<u8>, Error> {
-    let (width, height) = (image.width() as usize, image.height() as usize);
-    let channels = SpecificChannels::rgba(|at: Vec2<usize>| {
-        let [r, g, b] = image.pixel(at.x() as u32, at.y() as u32);
-        (r, g, b, 1.0_f32)
+/// Names of the ids in a picture, as JSON, in an attribute of this name.
+const NAMES: &str = "id.names";
+
+pub(super) fn encode(image: &Picture, provenance: &str) -> std::result::Result<Vec<u8>, Error> {
+    let alpha = |x: usize, y: usize| image.alpha().map_or(1.0, |alpha| alpha[y * image.width() as usize + x]);
+    let channels = SpecificChannels::rgba(|Vec2(x, y): Vec2<usize>| {
+        let [r, g, b] = image.pixel(x as u32, y as u32);
+        (r, g, b, alpha(x, y))
     });
+    bytes(&file(image, channels, provenance)?)
+}
+
+/// A picture with more channels than its colours. `names` says in JSON what ids stand for.
+///
+/// # Errors
+/// If the picture is too large for the format.
+///
+/// # Panics
+/// If a channel does not have as many numbers as the picture has pixels.
+pub fn encode_channels(
+    image: &Picture,
+    channels: Vec<film::Channel>,
+    names: &str,
+    provenance: &str,
+) -> std::result::Result<Vec<u8>, Error> {
+    let colors = ["R", "G", "B"].into_iter().enumerate();
+    let color = |(i, name)| AnyChannel::new(name, FlatSamples::F32(image.pixels().iter().map(|rgb| rgb[i]).collect()));
+    let alpha = image.alpha().map_or_else(|| vec![1.0; image.pixels().len()], <[f32]>::to_vec);
+    let mut list: SmallVec<[_; 4]> = colors.map(color).collect();
+    list.push(AnyChannel::new("A", FlatSamples::F32(alpha)));
+    list.extend(channels.into_iter().map(|channel| {
+        let samples = match channel.values {
+            film::Values::Float(values) => FlatSamples::F32(values),
+            film::Values::Id(values) => FlatSamples::U32(values),
+        };
+        // These are no light: nobody may compress them as such.
+        AnyChannel { quantize_linearly: true, ..AnyChannel::new(channel.name, samples) }
+    }));
+    assert!(list.iter().all(|c| c.sample_data.len() == image.pixels().len()), "one number for each pixel");
+    let mut file = file(image, AnyChannels::sort(list), &ascii(provenance))?;
+    // Of several attributes in one place, the order in the file would be random.
+    file.attributes.other.insert(Text::from(NAMES), plain_text(&ascii(names))?);
+    bytes(&file)
+}
+
+/// A picture's channels as a file.
+fn file<'c, C: WritableChannels<'c> + 'c>(
+    image: &Picture,
+    channels: C,
+    provenance: &str,
+) -> std::result::Result<Image<Layer<C>>, Error> {
     let mut attributes = LayerAttributes { software_name: Some(Text::from("Eyebeam")), ..LayerAttributes::default() };
-    let text = Text::new_or_none(provenance).ok_or_else(|| Error::Encode("provenance is not plain text".to_owned()))?;
-    attributes.other.insert(Text::from("eyebeam"), AttributeValue::Text(text));
+    attributes.other.insert(Text::from("eyebeam"), plain_text(provenance)?);
+    let size = (image.width() as usize, image.height() as usize);
     let encoding =
         Encoding { compression: Compression::ZIP16, blocks: Blocks::ScanLines, line_order: LineOrder::Increasing };
-    let mut file = Image::from_layer(Layer::new((width, height), attributes, encoding, channels));
+    let mut file = Image::from_layer(Layer::new(size, attributes, encoding, channels));
     file.attributes.chromaticities = Some(REC_709);
+    Ok(file)
+}
+
+fn plain_text(text: &str) -> std::result::Result<AttributeValue, Error> {
+    let text = Text::new_or_none(text).ok_or_else(|| Error::Encode("an attribute is not plain text".to_owned()))?;
+    Ok(AttributeValue::Text(text))
+}
+
+fn bytes<'f, L: WritableLayers<'f>>(file: &'f Image<L>) -> std::result::Result<Vec<u8>, Error> {
     let mut bytes = Vec::new();
     file.write().non_parallel().to_buffered(Cursor::new(&mut bytes)).map_err(|e| Error::Encode(e.to_string()))?;
     Ok(bytes)
@@ -38,7 +96,7 @@ mod tests {
 
     #[test]
     fn reads_back_bit_for_bit() {
-        let mut image = eyebeam_core::film::Image::new(5, 40);
+        let mut image = Picture::new(5, 40);
         image.set_pixel(4, 39, [1e-7, 0.3, 12345.678]);
         let bytes = encode(&image, "{\"spp\":4}").unwrap();
         let file = read_first_rgba_layer_from_buffer(&bytes);
@@ -48,6 +106,37 @@ mod tests {
         assert_eq!(file.attributes.chromaticities, Some(REC_709));
         let provenance = &file.layer_data.attributes.other[&Text::from("eyebeam")];
         assert_eq!(provenance, &AttributeValue::Text(Text::from("{\"spp\":4}")));
+    }
+
+    #[test]
+    fn channels_read_back_bit_for_bit() {
+        let mut image = Picture::new(3, 20).with_alpha(vec![0.25; 60]);
+        image.set_pixel(2, 19, [1.0, 2.0, 3.0]);
+        let depth: Vec<_> = (0..59).map(|i| i as f32 * 0.1).chain([f32::INFINITY]).collect();
+        let id: Vec<_> = (0..60).map(|i| u32::MAX - i).collect();
+        let channels = vec![
+            film::Channel { name: "id.object", values: film::Values::Id(id.clone()) },
+            film::Channel { name: "Z", values: film::Values::Float(depth.clone()) },
+        ];
+        let bytes = encode_channels(&image, channels, "{\"object\":[\"\",\"ä\"]}", "{}").unwrap();
+        let file = read_first_flat_layer_from_buffer(&bytes);
+        let list = &file.layer_data.channel_data.list;
+        let names: Vec<_> = list.iter().map(|c| c.name.to_string()).collect();
+        assert_eq!(names, ["A", "B", "G", "R", "Z", "id.object"]);
+        assert_eq!(list[0].sample_data, FlatSamples::F32(vec![0.25; 60]));
+        assert_eq!(list[4].sample_data, FlatSamples::F32(depth));
+        assert_eq!(list[5].sample_data, FlatSamples::U32(id));
+        let names = &file.layer_data.attributes.other[&Text::from(NAMES)];
+        assert_eq!(names, &AttributeValue::Text(Text::from("{\"object\":[\"\",\"\\u00e4\"]}")));
+        let file = read_first_rgba_layer_from_buffer(&bytes);
+        assert_eq!(file.layer_data.channel_data.pixels[19][2], [1.0, 2.0, 3.0, 0.25]);
+        let plain = read_first_rgba_layer_from_buffer(&encode(&image, "{}").unwrap());
+        assert_eq!(plain.layer_data.channel_data.pixels, file.layer_data.channel_data.pixels);
+    }
+
+    fn read_first_flat_layer_from_buffer(bytes: &[u8]) -> Image<Layer<AnyChannels<FlatSamples>>> {
+        let reader = read().no_deep_data().largest_resolution_level().all_channels().first_valid_layer();
+        reader.all_attributes().from_buffered(Cursor::new(bytes)).unwrap()
     }
 
     type RgbaFile = Image<Layer<SpecificChannels<Vec<Vec<[f32; 4]>>, RgbaChannels>>>;

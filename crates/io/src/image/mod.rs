@@ -5,6 +5,7 @@ mod hdr;
 mod png;
 mod read;
 
+pub use exr::encode_channels;
 pub use read::{read_image, read_image_bytes};
 
 use std::path::Path;
@@ -17,11 +18,11 @@ use crate::error::Error;
 /// A format that pictures are written in.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum ImageFormat {
-    /// 8 bit sRGB.
+    /// 8 bit sRGB, with straight alpha.
     Png,
-    /// 32 bit linear, with everything above white.
+    /// 32 bit linear, with everything above white, and alpha that colours are multiplied by.
     Exr,
-    /// Radiance RGBE, linear.
+    /// Radiance RGBE, linear; no alpha.
     Hdr,
 }
 
@@ -57,8 +58,11 @@ impl ImageFormat {
 
 /// The picture as screens show it: 8 bit sRGB, three bytes a pixel, row by row.
 pub fn srgb_bytes(image: &Image) -> Vec<u8> {
-    let byte = |linear: f32| (srgb_encode(linear.clamp(0.0, 1.0)) * 255.0).round() as u8;
-    image.pixels().iter().flatten().map(|&c| byte(c)).collect()
+    image.pixels().iter().flatten().map(|&c| srgb_byte(c)).collect()
+}
+
+fn srgb_byte(linear: f32) -> u8 {
+    (srgb_encode(linear.clamp(0.0, 1.0)) * 255.0).round() as u8
 }
 
 /// JSON in ASCII alone, which every text field takes.

@@ -1,5 +1,6 @@
 //! `eyebeam render`: a scene to a picture.
 
+mod aov;
 mod hash;
 mod stats;
 
@@ -10,7 +11,7 @@ use std::thread;
 use std::time::{Duration, Instant};
 
 use eyebeam_core::desc::RenderDesc;
-use eyebeam_core::film::{ErrorEstimate, Film};
+use eyebeam_core::film::{Aov, ErrorEstimate, Film};
 use eyebeam_core::integrator::IntegratorKind;
 use eyebeam_core::render::{Monitor, Render, Settings};
 use eyebeam_core::scene::Scene;
@@ -18,6 +19,8 @@ use eyebeam_io::Warning;
 use eyebeam_io::image::ImageFormat;
 use eyebeam_io::output::check_writable;
 use eyebeam_io::scene::{Override, SceneFile};
+
+use aov::Aovs;
 use stats::{Phases, Provenance, Stats};
 
 use crate::args::RenderArgs;
@@ -36,7 +39,10 @@ pub(super) fn run(args: &RenderArgs) -> Result<(), Error> {
 
     let mut settings = Settings::from(&desc.render);
     settings.threads = args.threads.unwrap_or(settings.threads);
-    check_memory(&settings, args.memory)?;
+    let aovs = args.aovs();
+    settings.film.variance = aovs.contains(&Aov::Variance);
+    output.check_channels(&settings, &aovs)?;
+    check_memory(&settings, &aovs, args.memory)?;
     output.check()?;
     if let Some(path) = args.stats.as_deref().filter(|path| !is_standard(path)) {
         check_writable(path)?;
@@ -45,6 +51,7 @@ pub(super) fn run(args: &RenderArgs) -> Result<(), Error> {
     let clock = Instant::now();
     let scene = Scene::build(&desc).map_err(|mut problems| Error::Scene(problems.remove(0)))?;
     let described = desc.render.clone();
+    let aovs = Aovs::new(&scene, &desc, &settings, aovs, args.aov_through);
     // The scene has what it needs of the meshes.
     drop(desc);
     phases.build = clock.elapsed().as_secs_f64();
@@ -54,9 +61,18 @@ pub(super) fn run(args: &RenderArgs) -> Result<(), Error> {
     }
 
     let signals = Signals::listen().map_err(Error::Listen)?;
-    let render = Render::new(&scene, settings);
-    let scene = Described { settings: &described, hash: &scene_hash, warnings: &warnings };
-    let mut session = Session { render, scene, args, output: &output, error: None };
+    let mut session = Session {
+        aovs,
+        render: Render::new(&scene, settings),
+        scene: Described { settings: &described, hash: &scene_hash, warnings: &warnings },
+        args,
+        output: &output,
+        error: None,
+    };
+    let clock = Instant::now();
+    session.run_aovs(&signals);
+    phases.aov = clock.elapsed().as_secs_f64();
+
     let clock = Instant::now();
     let rays = session.run(&signals)?;
     phases.render = clock.elapsed().as_secs_f64();
@@ -84,15 +100,18 @@ fn describe(args: &RenderArgs) -> Result<SceneFile, Error> {
     render.spp = args.spp.unwrap_or(render.spp);
     render.max_depth = args.max_depth.unwrap_or(render.max_depth);
     render.seed = args.seed.unwrap_or(render.seed);
+    render.transparent |= args.transparent;
+    render.clamp = args.clamp.unwrap_or(render.clamp);
     Ok(file)
 }
 
 /// Film and picture, and the encoded file.
-fn check_memory(settings: &Settings, allowed: u64) -> Result<(), Error> {
+fn check_memory(settings: &Settings, aovs: &[Aov], allowed: u64) -> Result<(), Error> {
     // 16 bytes a pixel and format at most, and as much again while the file grows or its pixels are copied.
     const ENCODING: u64 = 32;
     let pixels = u64::from(settings.width) * u64::from(settings.height);
-    let needed = Film::bytes(settings.width, settings.height) + ENCODING * pixels;
+    let film = Film::bytes(settings.width, settings.height, &settings.film);
+    let needed = film + ENCODING * pixels + Aovs::bytes(settings, aovs);
     if needed > allowed { Err(Error::Memory { needed, allowed }) } else { Ok(()) }
 }
 
@@ -118,6 +137,20 @@ impl Output {
         Ok(Self { path, format })
     }
 
+    /// That the format takes all that there is to write.
+    fn check_channels(&self, settings: &Settings, aovs: &[Aov]) -> Result<(), Error> {
+        let path = self.path.display();
+        if !aovs.is_empty() && self.format != ImageFormat::Exr {
+            let why = format!("--aov needs a file of many channels, which `{path}` is not");
+            return Err(Error::Usage(why + "\nhint: name it in .exr (-o)"));
+        }
+        if settings.film.transparent && self.format == ImageFormat::Hdr {
+            let why = format!("a transparent picture needs alpha, which `{path}` cannot hold");
+            return Err(Error::Usage(why + "\nhint: name it in .png or .exr (-o)"));
+        }
+        Ok(())
+    }
+
     fn check(&self) -> Result<(), Error> {
         if is_standard(&self.path) { Ok(()) } else { Ok(check_writable(&self.path)?) }
     }
@@ -132,6 +165,7 @@ struct Described<'a> {
 
 /// A render with all that watches it.
 struct Session<'a> {
+    aovs: Aovs<'a>,
     render: Render<'a>,
     scene: Described<'a>,
     args: &'a RenderArgs,
@@ -141,66 +175,69 @@ struct Session<'a> {
 }
 
 impl Session<'_> {
+    /// Finds what the picture tells besides light, until done or told to end.
+    fn run_aovs(&mut self, signals: &Signals) {
+        let (monitor, mut progress) = (Monitor::default(), self.progress());
+        let of = Work { phase: "aov", units: self.render.settings().height.into(), spp: self.aovs.spp() };
+        while !self.aovs.is_done() && signals.end().is_none() {
+            watched(&monitor, signals, || progress.update(of.state(&monitor, None)), || self.aovs.step(&monitor));
+            if signals.take_write() {
+                self.write_picture_now();
+            }
+        }
+        if monitor.units.load(Relaxed) > 0 {
+            progress.finish(of.state(&monitor, None));
+        }
+    }
+
     /// Renders until done or told to end; returns the number of rays.
     fn run(&mut self, signals: &Signals) -> Result<u64, Error> {
-        let monitor = Monitor::default();
-        let mut progress = Progress::new(self.args.progress, self.args.quiet);
+        let (monitor, mut progress) = (Monitor::default(), self.progress());
+        let of = Work { phase: "render", units: self.render.units(), spp: self.render.settings().spp };
         let mut estimated = Instant::now();
         while !self.render.is_done() && signals.end().is_none() {
             let error = self.error.map(|e| e.mean);
-            self.watched_step(&monitor, signals, &mut progress, error);
-            monitor.pause.store(false, Relaxed);
+            watched(&monitor, signals, || progress.update(of.state(&monitor, error)), || self.render.step(&monitor));
             // A short step ends before anything has looked.
-            progress.update(self.state(&monitor, error));
+            progress.update(of.state(&monitor, error));
             if signals.take_write() {
                 self.error = self.render.film().error();
-                // What can be written later is not to be lost now.
-                self.write_picture().unwrap_or_else(|e| say(&e.to_string()));
+                self.write_picture_now();
             }
             if estimated.elapsed() > Duration::from_secs(1) {
                 self.error = self.render.film().error();
                 estimated = Instant::now();
             }
         }
-        progress.finish(self.state(&monitor, self.error.map(|e| e.mean)));
+        progress.finish(of.state(&monitor, self.error.map(|e| e.mean)));
         Ok(monitor.rays.load(Relaxed))
     }
 
-    /// One step, with another thread that shows progress and passes signals on.
-    fn watched_step(&mut self, monitor: &Monitor, signals: &Signals, progress: &mut Progress, error: Option<f64>) {
-        let (units, spp) = (self.render.units(), self.render.settings().spp);
-        let (done, is_done) = channel::<()>();
-        thread::scope(|scope| {
-            scope.spawn(move || {
-                while let Err(RecvTimeoutError::Timeout) = is_done.recv_timeout(Duration::from_millis(20)) {
-                    progress.update(state(monitor, units, spp, error));
-                    if signals.any() {
-                        monitor.pause.store(true, Relaxed);
-                    }
-                }
-            });
-            self.render.step(monitor);
-            drop(done);
-        });
-    }
-
-    fn state(&self, monitor: &Monitor, error: Option<f64>) -> State {
-        state(monitor, self.render.units(), self.render.settings().spp, error)
+    fn progress(&self) -> Progress {
+        Progress::new(self.args.progress, self.args.quiet)
     }
 
     fn provenance(&self) -> Provenance<'_> {
-        Provenance::new(self.args, &self.scene, self.render.film(), self.error)
+        Provenance::new(self.args, &self.scene, self.aovs.about(), self.render.film(), self.error)
     }
 
     fn write_picture(&self) -> Result<(), Error> {
-        let image = self.render.film().develop();
-        write(&self.output.path, &self.output.format.encode(&image, &self.provenance().to_json())?)
+        let provenance = self.provenance().to_json();
+        let file = self.aovs.encode(self.render.film(), self.output.format, &provenance)?;
+        write(&self.output.path, &file)
+    }
+
+    /// Writes the picture as it is: what can be written later is not to be lost now.
+    fn write_picture_now(&self) {
+        self.write_picture().unwrap_or_else(|e| say(&e.to_string()));
     }
 
     /// What was done, for a person and for a program.
     fn report(&self, phases: &Phases, rays: u64, signal: Option<u8>) -> Result<(), Error> {
         let settings = self.render.settings();
-        let stats = Stats::new(self.provenance(), self.scene.warnings, settings.threads.get(), phases, rays, signal);
+        let clamped = self.render.film().clamped();
+        let warnings = self.scene.warnings;
+        let stats = Stats::new(self.provenance(), warnings, settings.threads.get(), phases, rays, clamped, signal);
         if !self.args.quiet {
             let error = self.error.map(|e| format!(" · error {:.1} %", 100.0 * e.mean)).unwrap_or_default();
             let seconds =
@@ -222,6 +259,35 @@ impl Session<'_> {
     }
 }
 
-fn state(monitor: &Monitor, units: u64, spp: u32, error: Option<f64>) -> State {
-    State { rays: monitor.rays.load(Relaxed), done: monitor.units.load(Relaxed) as f64 / units as f64, spp, error }
+/// A phase of the work.
+struct Work {
+    phase: &'static str,
+    units: u64,
+    /// Samples per pixel.
+    spp: u32,
+}
+
+impl Work {
+    fn state(&self, monitor: &Monitor, error: Option<f64>) -> State {
+        let done = monitor.units.load(Relaxed) as f64 / self.units as f64;
+        State { phase: self.phase, rays: monitor.rays.load(Relaxed), done, spp: self.spp, error }
+    }
+}
+
+/// Works until done or told to pause, with another thread that shows progress and passes signals on.
+fn watched(monitor: &Monitor, signals: &Signals, mut show: impl FnMut() + Send, work: impl FnOnce()) {
+    let (done, is_done) = channel::<()>();
+    thread::scope(|scope| {
+        scope.spawn(move || {
+            while let Err(RecvTimeoutError::Timeout) = is_done.recv_timeout(Duration::from_millis(20)) {
+                show();
+                if signals.any() {
+                    monitor.pause.store(true, Relaxed);
+                }
+            }
+        });
+        work();
+        drop(done);
+    });
+    monitor.pause.store(false, Relaxed);
 }

@@ -7,6 +7,7 @@ use serde::Serialize;
 
 use crate::args::RenderArgs;
 use crate::command::render::Described;
+use crate::command::render::aov::About;
 use crate::limits::peak_memory;
 
 /// What made a picture; enough to make the same bits again.
@@ -21,6 +22,8 @@ pub(super) struct Provenance<'a> {
     /// SHA-256 of the scene with all that was included, changed and loaded, but for `settings`.
     scene_hash: &'a str,
     settings: &'a RenderDesc,
+    /// What the picture tells besides light.
+    aov: About,
     spp: Spp,
     error: Option<Error>,
     #[serde(skip)]
@@ -41,7 +44,13 @@ struct Error {
 }
 
 impl<'a> Provenance<'a> {
-    pub(super) fn new(args: &RenderArgs, scene: &Described<'a>, film: &Film, error: Option<ErrorEstimate>) -> Self {
+    pub(super) fn new(
+        args: &RenderArgs,
+        scene: &Described<'a>,
+        aov: About,
+        film: &Film,
+        error: Option<ErrorEstimate>,
+    ) -> Self {
         let SampleCounts { min, mean, max, dropped } = film.sample_counts();
         Self {
             schema: "eyebeam-render-1",
@@ -50,6 +59,7 @@ impl<'a> Provenance<'a> {
             overrides: args.set.iter().map(|o| format!("{}={}", o.path, o.value)).collect(),
             scene_hash: scene.hash,
             settings: scene.settings,
+            aov,
             spp: Spp { min, mean, max },
             error: error.map(|ErrorEstimate { mean, p95 }| Error { mean, p95 }),
             dropped,
@@ -66,6 +76,7 @@ impl<'a> Provenance<'a> {
 pub(super) struct Phases {
     pub(super) load: f64,
     pub(super) build: f64,
+    pub(super) aov: f64,
     pub(super) render: f64,
     pub(super) write: f64,
 }
@@ -77,7 +88,7 @@ pub(super) struct Stats<'a> {
     provenance: Provenance<'a>,
     stop_reason: &'static str,
     nan_count: u64,
-    /// Nothing is clamped.
+    /// Luminance that clamping has taken from the picture, in the mean over its pixels.
     clamped_energy: f64,
     seconds: Phases,
     rays: u64,
@@ -97,6 +108,7 @@ impl<'a> Stats<'a> {
         threads: usize,
         phases: &Phases,
         rays: u64,
+        clamped_energy: f64,
         signal: Option<u8>,
     ) -> Self {
         let dropped = provenance.dropped;
@@ -106,7 +118,7 @@ impl<'a> Stats<'a> {
             provenance,
             stop_reason: if signal.is_some() { "signal" } else { "spp" },
             nan_count: dropped,
-            clamped_energy: 0.0,
+            clamped_energy,
             seconds: phases.clone(),
             rays,
             rays_per_s: rays as f64 / phases.render,
