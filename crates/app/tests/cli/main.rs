@@ -2,6 +2,7 @@
 
 mod determinism;
 mod examples;
+mod files;
 mod output;
 mod pictures;
 #[cfg(unix)]
