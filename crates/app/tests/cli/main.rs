@@ -3,6 +3,7 @@
 mod aov;
 mod determinism;
 mod examples;
+mod files;
 mod output;
 mod pictures;
 #[cfg(unix)]

@@ -17,8 +17,8 @@ const ALBEDO: f32 = 0.8;
 
 /// Radiance of the floor at (x, 0, z) in the light of these lamps alone.
 fn lit(light: &LightsDesc, x: f32, z: f32) -> [f32; 3] {
-    let mut desc = scene(DARK, matte(ALBEDO), look([x, 9.0, z], [x, 0.0, z], 0.001));
-    desc.shape.quad.push(floor(0.0, 1e3));
+    let mut desc = scene(DARK, matte(ALBEDO), look([x, 1.0, z], [x, 0.0, z], 0.001));
+    desc.shape.quad.push(floor(0.0, 60.0));
     desc.light = light.clone();
     let settings = Settings { integrator: IntegratorKind::Path, ..settings(1, 16, 2) };
     render(&desc, settings).develop().pixel(0, 0)
@@ -102,7 +102,7 @@ fn an_ies_lamp() {
 fn a_projector() {
     let mut image = Image::new(4, 2);
     for (x, y) in (0..2).flat_map(|y| (0..4).map(move |x| (x, y))) {
-        image.set_pixel(x, y, [1.0 + x as f32, 1.0 + 5.0 * y as f32, 1.0]);
+        image.set_pixel(x, y, [1.0 + x as f32, 3.0 - y as f32, 1.0]);
     }
     let projector = ProjectorLight {
         file: String::new(),
@@ -116,7 +116,7 @@ fn a_projector() {
     let light = LightsDesc { projector: vec![projector], ..LightsDesc::default() };
     for (x, y) in (0..2).flat_map(|y| (0..4).map(move |x| (x, y))) {
         let at = [x as f32 - 1.5, y as f32 - 0.5];
-        assert_intensity(&light, Vec3::Y * 2.0, at, [3.0 + 3.0 * x as f32, 3.0 + 15.0 * y as f32, 3.0]);
+        assert_intensity(&light, Vec3::Y * 2.0, at, [3.0 + 3.0 * x as f32, 9.0 - 3.0 * y as f32, 3.0]);
     }
     for outside in [[2.01, 0.0], [-2.01, 0.0], [0.0, 1.01], [0.0, -1.01]] {
         assert_eq!(lit(&light, outside[0], outside[1]), [0.0; 3]);
@@ -164,7 +164,7 @@ fn all_together() {
         LightsDesc { projector: light.projector.clone(), ..LightsDesc::default() },
     ];
     let mut desc: SceneDesc = scene(DARK, matte(ALBEDO), look([0.0, 6.0, 0.1], [0.0; 3], 40.0));
-    desc.shape.quad.push(floor(0.0, 1e3));
+    desc.shape.quad.push(floor(0.0, 60.0));
     let mean = |light: &LightsDesc, spp: u32| {
         let desc = SceneDesc { light: light.clone(), ..desc.clone() };
         let image = render(&desc, Settings { integrator: IntegratorKind::Path, ..settings(32, spp, 2) }).develop();
