@@ -36,7 +36,7 @@ impl Light {
     }
 
     #[inline]
-    fn sample(&self, p: Vec3, u: Vec2) -> Option<LightSample> {
+    pub(crate) fn sample(&self, p: Vec3, u: Vec2) -> Option<LightSample> {
         let from = |position: Vec3, intensity: Spectrum| {
             let to = position - p;
             let distance_sq = to.length_squared();

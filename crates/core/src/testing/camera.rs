@@ -99,5 +99,5 @@ fn extent_shown(camera: &dyn CameraRays, desc: &CameraDesc, size: Vec2) -> f64 {
         let [below, above] = [0.5, -0.5].map(|s| at(film + Vec2::Y * cell * s));
         Some((right? - left?).cross(below? - above?).length())
     };
-    (0..SIDE).flat_map(|y| (0..SIDE).filter_map(move |x| shown(x, y))).sum()
+    (0..SIDE * SIDE).filter_map(|i| shown(i % SIDE, i / SIDE)).sum()
 }
