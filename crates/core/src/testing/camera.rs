@@ -87,17 +87,19 @@ fn extent(desc: &CameraDesc, width: u32, height: u32) -> f64 {
     }
 }
 
-/// The same by what each of many small squares of the film shows.
+/// The same by what the middles of many small squares of the film show.
 fn extent_shown(camera: &dyn CameraRays, desc: &CameraDesc, size: Vec2) -> f64 {
     const SIDE: u32 = 200;
+    /// Of a square's side.
+    const STEP: f32 = 0.1;
     let ray = |film: Vec2| camera.ray(film, &mut Sampler::Independent(Independent::new(62, UVec2::ZERO, 0)));
     let at = |film: Vec2| ray(film).map(|ray| if desc.orthographic.is_some() { ray.o } else { ray.d }.as_dvec3());
-    let cell = size / SIDE as f32;
+    let square = size / SIDE as f32;
     let shown = |x: u32, y: u32| {
-        let film = (Vec2::new(x as f32, y as f32) + 0.5) * cell;
-        let [right, left] = [0.5, -0.5].map(|s| at(film + Vec2::X * cell * s));
-        let [below, above] = [0.5, -0.5].map(|s| at(film + Vec2::Y * cell * s));
-        Some((right? - left?).cross(below? - above?).length())
+        let film = (Vec2::new(x as f32, y as f32) + 0.5) * square;
+        let [right, left] = [STEP, -STEP].map(|s| at(film + Vec2::X * square * s));
+        let [below, above] = [STEP, -STEP].map(|s| at(film + Vec2::Y * square * s));
+        Some((right? - left?).cross(below? - above?).length() / (4.0 * f64::from(STEP * STEP)))
     };
     (0..SIDE * SIDE).filter_map(|i| shown(i % SIDE, i / SIDE)).sum()
 }

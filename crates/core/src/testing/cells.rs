@@ -3,7 +3,7 @@
 //! A density as wide as the sphere and one as narrow as a hundredth of a degree are told from a wrong one equally well,
 //! and within a box a density varies little, so it is easy to integrate.
 
-/// A direction: 1 − cos of the angle to a pole and the azimuth in turns, in which solid angle is even.
+/// A direction: two numbers in which solid angle is even, the second of them the azimuth in turns.
 pub(super) type Point = [f64; 2];
 
 /// A box of directions, from a lower to an upper corner.
@@ -11,10 +11,10 @@ pub(super) type Point = [f64; 2];
 pub(super) struct Cell([Point; 2]);
 
 impl Cell {
-    /// All directions within 90 degrees of the pole.
+    /// 1 − cos of the angle to the pole and the azimuth of all directions within 90 degrees.
     pub(super) const HEMISPHERE: Self = Self([[0.0, -0.5], [1.0, 0.5]]);
-    /// All directions.
-    pub(super) const SPHERE: Self = Self([[0.0, -0.5], [2.0, 0.5]]);
+    /// The cosine and the azimuth of all directions.
+    pub(super) const SPHERE: Self = Self([[-1.0, -0.5], [1.0, 0.5]]);
 
     /// Both parts of a cut through one axis.
     fn cut(self, axis: usize, at: f64) -> [Self; 2] {

@@ -116,7 +116,9 @@ mod tests {
     #[test]
     fn estimates_know_their_error() {
         let estimate = Estimate::new(&[1.0, 2.0, 3.0, 2.0]);
-        assert!((estimate.mean - 2.0).abs() < 1e-12 && (estimate.standard_error - (1.0_f64 / 6.0).sqrt()).abs() < 1e-12);
+        assert!(
+            (estimate.mean - 2.0).abs() < 1e-12 && (estimate.standard_error - (1.0_f64 / 6.0).sqrt()).abs() < 1e-12
+        );
         estimate.z_test(2.0 + 3.2 * estimate.standard_error, 0.0, 1).unwrap();
         estimate.z_test(2.0 + 3.4 * estimate.standard_error, 0.0, 1).unwrap_err();
         estimate.z_test(f64::NAN, 0.0, 1).unwrap_err();

@@ -14,7 +14,7 @@ use crate::math::Frame;
 use crate::sampler::Independent;
 
 /// A light as a point sees it.
-pub trait LightSampling {
+pub trait LightSampling: Sync {
     /// Draws a direction from which it shines on `p`; none if it does not, or if it is never sampled.
     fn sample(&self, p: Vec3, u: Vec2) -> Option<LightSample>;
 
@@ -45,36 +45,45 @@ pub fn check_light(light: &dyn LightSampling, points: &[Vec3]) -> Result<(), Str
     Ok(())
 }
 
-/// A light from a point, in a frame whose pole is in the middle of the light.
+/// A light from a point. In its frame x is the middle of the light and z the way in which it is least wide, so that cosine
+/// and azimuth box it in tightly, also where it is a strip.
 struct View<'l> {
     light: &'l dyn LightSampling,
     p: Vec3,
-    frame: Frame,
+    x: Vec3,
+    y: Vec3,
+    z: Vec3,
 }
 
 impl<'l> View<'l> {
     fn new(light: &'l dyn LightSampling, p: Vec3) -> Self {
-        let directions = (0..200).filter_map(|i| light.sample(p, numbers(20, i)));
-        let middle = directions.map(|s| s.wi).sum::<Vec3>().try_normalize().unwrap_or(Vec3::Z);
-        Self { light, p, frame: Frame::from_z(middle) }
+        let directions: Vec<_> = (0..200).filter_map(|i| light.sample(p, numbers(20, i))).map(|s| s.wi).collect();
+        let middle = directions.iter().sum::<Vec3>().try_normalize().unwrap_or(Vec3::X);
+        let across = Frame::from_z(middle);
+        // The axes of the ellipse that the directions fill: its angle is half that of the sum of squares.
+        let squares = directions.iter().map(|&w| {
+            let w = across.to_local(w);
+            Vec2::new(w.x * w.x - w.y * w.y, 2.0 * w.x * w.y)
+        });
+        let square = squares.sum::<Vec2>();
+        let (sin, cos) = (0.5 * square.y.atan2(square.x)).sin_cos();
+        let y = across.to_world(Vec3::new(cos, sin, 0.0));
+        Self { light, p, x: middle, y, z: middle.cross(y) }
     }
 
     fn samples(&self, seed: u64, count: u32) -> impl Iterator<Item = LightSample> {
         (0..count).filter_map(move |i| self.light.sample(self.p, numbers(seed, i)))
     }
 
-    /// The chord tells 1 − cos where the cosine would cancel.
     fn point(&self, w: Vec3) -> Point {
-        let local = self.frame.to_local(w).as_dvec3();
-        let r_sq = local.truncate().length_squared();
-        let depth = if local.z > 0.7 { r_sq / (1.0 + local.z) } else { 1.0 - local.z };
-        [depth.clamp(0.0, 2.0), local.y.atan2(local.x) / TAU]
+        let [x, y, z] = [self.x, self.y, self.z].map(|axis| f64::from(w.dot(axis)));
+        [z.clamp(-1.0, 1.0), y.atan2(x) / TAU]
     }
 
-    fn direction(&self, [depth, turn]: Point) -> Vec3 {
-        let r = (depth * (2.0 - depth)).max(0.0).sqrt();
+    fn direction(&self, [z, turn]: Point) -> Vec3 {
+        let r = (1.0 - z * z).max(0.0).sqrt();
         let (sin, cos) = (turn * TAU).sin_cos();
-        self.frame.to_world(Vec3::new((r * cos) as f32, (r * sin) as f32, (1.0 - depth) as f32)).normalize()
+        ((r * cos) as f32 * self.x + (r * sin) as f32 * self.y + z as f32 * self.z).normalize()
     }
 
     fn check_samples(&self) -> Result<(), String> {
@@ -104,7 +113,7 @@ impl<'l> View<'l> {
         let points: Vec<_> = self.samples(23, SAMPLES).map(|s| self.point(s.wi)).collect();
         let drawn = points.len() as f64;
         let density = |point: Point| TAU * f64::from(self.light.pdf(self.p, self.direction(point)));
-        let bins = Cell::SPHERE.divide(layout, points, 1e-5, &density);
+        let bins = Cell::SPHERE.divide(layout, points, 3e-5, &density);
         let chance: f64 = bins.iter().map(|bin| bin.1).sum();
         let noise = (chance * (1.0 - chance).max(0.0) / f64::from(SAMPLES)).sqrt();
         if (drawn / f64::from(SAMPLES) - chance).abs() > 5.0 * noise + 5e-3 {
@@ -120,17 +129,18 @@ impl<'l> View<'l> {
     fn check_light_found(&self, tests: u32) -> Result<(), String> {
         const GROUPS: u32 = 100;
         const SIZE: u32 = 400;
-        let reach = self.samples(24, 2000).map(|s| self.point(s.wi)[0]).fold(0.0, f64::max);
-        let cap = (1.2 * reach).min(2.0);
-        let facing = |w: Vec3| f64::from(self.frame.to_local(w).z.max(0.0));
+        let [lo, hi] = self.bounds();
+        let facing = |w: Vec3| f64::from(w.dot(self.x).max(0.0));
         let led = |u: Vec2| {
             let sample = self.light.sample(self.p, u);
             sample.map_or(0.0, |s| luminance64(s.l) * facing(s.wi) / f64::from(s.pdf))
         };
+        let solid_angle = (hi[0] - lo[0]) * (hi[1] - lo[1]) * TAU;
         let uniform = |u: Vec2| {
-            let w = self.direction([cap * f64::from(u.x), f64::from(u.y) - 0.5]);
+            let at = |axis: usize| lo[axis] + f64::from(u[axis]) * (hi[axis] - lo[axis]);
+            let w = self.direction([at(0), at(1)]);
             let found = if self.light.pdf(self.p, w) > 0.0 { self.light.le(self.p, w) } else { Spectrum::BLACK };
-            luminance64(found) * facing(w) * cap * TAU
+            luminance64(found) * facing(w) * solid_angle
         };
         let mean = |seed: u64, f: &dyn Fn(Vec2) -> f64| {
             let group = |g| (0..SIZE).map(|i| f(numbers(seed, g * SIZE + i))).sum::<f64>() / f64::from(SIZE);
@@ -139,6 +149,17 @@ impl<'l> View<'l> {
         let (led, uniform) = (mean(25, &led), mean(26, &uniform));
         let both = Estimate { standard_error: led.standard_error.hypot(uniform.standard_error), ..led };
         both.z_test(uniform.mean, 1e-3, tests).map_err(|e| format!("irradiance by samples: {e}, by uniform directions"))
+    }
+
+    /// A box of directions around all samples, a fifth larger to each side.
+    fn bounds(&self) -> [Point; 2] {
+        let points = self.samples(24, 2000).map(|s| self.point(s.wi));
+        let [lo, hi] = points.fold([[1.0, 0.5], [-1.0, -0.5]], |[lo, hi], p| {
+            [[0, 1].map(|i: usize| p[i].min(lo[i])), [0, 1].map(|i: usize| p[i].max(hi[i]))]
+        });
+        let margin = [0, 1].map(|i: usize| 0.2 * (hi[i] - lo[i]).max(0.0));
+        let lo = [(lo[0] - margin[0]).max(-1.0), (lo[1] - margin[1]).max(-0.5)];
+        [lo, [(hi[0] + margin[0]).min(1.0), (hi[1] + margin[1]).min(0.5)]]
     }
 }
 

@@ -2,8 +2,8 @@
 
 use glam::{UVec2, Vec2, Vec3};
 
-use super::{Lobe, SIGNIFICANCE};
 use super::chi2::chi2_at;
+use super::{Lobe, SIGNIFICANCE};
 use crate::sampler::Independent;
 
 /// Of the lobe of smooth glass of index `eta`: reflections come as often as Fresnel's equations say and go where a mirror

@@ -36,9 +36,9 @@ pub(super) fn floor_at(irradiance: f64) -> f64 {
     f64::from(ALBEDO) / std::f64::consts::PI * irradiance
 }
 
-/// Corner and edges of a large horizontal square at a height, whose normal is up.
+/// Corner and edges of a large horizontal square at a height, whose normal is up. The origin is not on its diagonals.
 pub(super) fn floor(y: f32) -> [[f32; 3]; 3] {
-    [[-1e3, y, 1e3], [2e3, 0.0, 0.0], [0.0, 0.0, -2e3]]
+    [[-9.0, y, 10.0], [20.0, 0.0, 0.0], [0.0, 0.0, -20.0]]
 }
 
 pub(super) fn add_quad(desc: &mut SceneDesc, [corner, u, v]: [[f32; 3]; 3], name: &str, material: MaterialDesc) {

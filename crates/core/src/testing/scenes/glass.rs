@@ -41,9 +41,9 @@ fn slab(degrees: f64) -> KnownScene {
     let sky = Gradient { bottom: Rgb::grey(0.0), top: Rgb::grey(1.0) };
     let mut desc =
         empty(EnvironmentDesc::Gradient(sky), look([0.3 + 2.0 * sin as f32, 2.0 * cos as f32, 0.1], [0.3, 0.0, 0.1]));
-    let [corner, u, v] = floor(-0.2);
+    let [[x, y, z], u, v] = floor(-0.2);
     add_quad(&mut desc, floor(0.0), "glass", glass(1.5));
-    add_quad(&mut desc, [corner.map(|x| if x == 1e3 { -1e3 } else { x }), u, v.map(|x| -x)], "glass", glass(1.5));
+    add_quad(&mut desc, [[x, y, -z], u, v.map(|x| -x)], "glass", glass(1.5));
     let r = reflectance(cos, 1.5);
     let [above, below] = [0.5 * (1.0 + cos), 0.5 * (1.0 - cos)];
     let expected = 2.0 * r / (1.0 + r) * above + (1.0 - r) / (1.0 + r) * below;

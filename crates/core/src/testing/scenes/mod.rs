@@ -49,7 +49,7 @@ impl KnownScene {
     }
 
     /// Pixels along a side of the pictures that are rendered.
-    const SIDE: u32 = 4;
+    const SIDE: u32 = 6;
 
     /// Renders a small picture for each seed. All pixels estimate the same number, and independently, also with Sobol
     /// points, which each pixel shifts by random numbers of its own: so their scatter tells the error of their mean.
@@ -103,7 +103,7 @@ impl KnownScene {
     ) -> Result<(), String> {
         const TESTS: u32 = 200;
         const ROUNDING: f64 = 2e-5;
-        self.render(integrator, sampler, spp, 0..16)?.z_test(self.expected, ROUNDING, TESTS)
+        self.render(integrator, sampler, spp, 0..8)?.z_test(self.expected, ROUNDING, TESTS)
     }
 }
 

@@ -127,7 +127,11 @@ fn lights() -> impl Iterator<Item = (&'static str, SceneDesc, Vec<Vec3>)> {
         material: Some("lamp".to_owned()),
     });
     let mut sun = dark();
-    sun.light.directional.push(DirectionalLight { direction: [0.5, 0.6, 0.2], irradiance: Rgb::grey(3.0), angle: 0.53 });
+    sun.light.directional.push(DirectionalLight {
+        direction: [0.5, 0.6, 0.2],
+        irradiance: Rgb::grey(3.0),
+        angle: 0.53,
+    });
     let sky = SceneDesc { environment: spotted_sky(), ..SceneDesc::default() };
     let anywhere = vec![Vec3::ZERO];
     [
@@ -162,7 +166,8 @@ fn spotted_sky() -> EnvironmentDesc {
 fn choices(i: &dyn Implementation) -> Result<(), String> {
     let lamp = |k: u8| {
         let k = f32::from(k);
-        let (p, axis) = (Vec3::new(k - 4.0, 2.0 + 0.3 * k, 1.5 - 0.4 * k), Vec3::new(0.1 * k - 0.4, -1.0, 0.2).normalize());
+        let (p, axis) =
+            (Vec3::new(k - 4.0, 2.0 + 0.3 * k, 1.5 - 0.4 * k), Vec3::new(0.1 * k - 0.4, -1.0, 0.2).normalize());
         let power = if k == 5.0 { 0.0 } else { 1.0 + 3.0 * (k % 3.0) };
         match k as u8 % 3 {
             0 => LightBounds::sphere(p, 0.2, power),
@@ -173,7 +178,8 @@ fn choices(i: &dyn Implementation) -> Result<(), String> {
     let lamps: Vec<_> = (0..9).map(lamp).collect();
     for selection in [LightSelection::Uniform, LightSelection::Power, LightSelection::Tree] {
         let choice = i.light_choice(selection, &lamps);
-        for (p, n) in [(Vec3::ZERO, Vec3::Y), (Vec3::new(3.0, 2.5, -1.0), Vec3::X), (Vec3::new(-9.0, 9.0, 4.0), Vec3::ZERO)]
+        for (p, n) in
+            [(Vec3::ZERO, Vec3::Y), (Vec3::new(3.0, 2.5, -1.0), Vec3::X), (Vec3::new(-9.0, 9.0, 4.0), Vec3::ZERO)]
         {
             let place = |e| format!("{selection:?} at {p}: {e}");
             check_selection(&*choice, lamps.len() as u32, p, n).map_err(place)?;

@@ -59,7 +59,12 @@ fn still_life() -> SceneDesc {
         ..SceneDesc::default()
     };
     let floor = Some("floor".to_owned());
-    desc.shape.quad.push(QuadDesc { corner: [-8.0, 0.0, 8.0], u: [16.0, 0.0, 0.0], v: [0.0, 0.0, -16.0], material: floor });
+    desc.shape.quad.push(QuadDesc {
+        corner: [-8.0, 0.0, 8.0],
+        u: [16.0, 0.0, 0.0],
+        v: [0.0, 0.0, -16.0],
+        material: floor,
+    });
     for (center, name) in [([-1.1, 0.5, 0.0], "metal"), ([0.1, 0.5, 0.4], "glass"), ([1.3, 0.5, 0.0], "lamp")] {
         desc.shape.sphere.push(SphereDesc { center, radius: 0.5, material: Some(name.to_owned()) });
     }
