@@ -4,6 +4,7 @@ mod determinism;
 mod examples;
 mod output;
 mod pictures;
+mod selftest;
 #[cfg(unix)]
 mod signals;
 mod streams;
