@@ -16,7 +16,9 @@ pub(crate) enum Error {
     Memory { needed: u64, allowed: u64 },
     #[error("error: cannot listen to signals: {0}")]
     Listen(std::io::Error),
-    #[error("error: {failures} of {count} checks failed\nhint: pictures of this program on this machine are not to be trusted; please report it")]
+    #[error(
+        "error: {failures} of {count} checks failed\nhint: pictures of this program on this machine are not to be trusted; please report it"
+    )]
     Selftest { failures: usize, count: usize },
     #[error("error: cannot write to standard output: {0}")]
     Stdout(std::io::Error),
