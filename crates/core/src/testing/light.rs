@@ -113,7 +113,7 @@ impl<'l> View<'l> {
         let points: Vec<_> = self.samples(23, SAMPLES).map(|s| self.point(s.wi)).collect();
         let drawn = points.len() as f64;
         let density = |point: Point| TAU * f64::from(self.light.pdf(self.p, self.direction(point)));
-        let bins = Cell::SPHERE.divide(layout, points, 3e-5, &density);
+        let bins = Cell::SPHERE.divide(layout, points, 1e-4, &density);
         let chance: f64 = bins.iter().map(|bin| bin.1).sum();
         let noise = (chance * (1.0 - chance).max(0.0) / f64::from(SAMPLES)).sqrt();
         if (drawn / f64::from(SAMPLES) - chance).abs() > 5.0 * noise + 5e-3 {

@@ -58,8 +58,8 @@ pub fn check_numbers<'s>(numbers: &dyn Fn(UVec2, u32) -> Box<dyn Numbers + 's>) 
             (numbers.get_2d(), numbers.get_3d(), numbers.get_1d(), numbers.get_1d())
         };
         let (two, (z, three), a, b) = draw(pixel, 3);
-        let (sample, _, ..) = draw(pixel, 4);
-        let (right, _, ..) = draw(pixel + UVec2::X, 3);
+        let (sample, ..) = draw(pixel, 4);
+        let (right, ..) = draw(pixel + UVec2::X, 3);
         let pairs = [
             [two.x, two.y],
             [three.x, three.y],

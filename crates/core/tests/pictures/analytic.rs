@@ -18,7 +18,7 @@ const NARROW: f32 = 0.01;
 /// Every scene that is known beforehand, by every integrator that can see its light, with every sampler.
 #[test]
 fn known_scenes() {
-    const SPP: u32 = 256;
+    const SPP: u32 = 128;
     for scene in scenes::all() {
         for (integrator, kind) in IntegratorKind::NAMES {
             if !scene.by_chance && *kind == IntegratorKind::Weekend {

@@ -127,7 +127,7 @@ mod tests {
 
     #[test]
     fn a_wrong_number_is_found() {
-        let mut scene = all().swap_remove(0);
+        let mut scene = all().into_iter().find(|scene| scene.expected == 1.0).unwrap();
         let integrator = |max_depth| move || Box::new(Weekend { max_depth }) as Box<dyn Integrator>;
         scene.check(integrator(scene.max_depth), SamplerKind::Sobol, 16).unwrap();
         scene.expected *= 1.001;

@@ -21,13 +21,15 @@ use std::time::Instant;
 
 pub use implementation::{Eyebeam, Implementation};
 
+type Test = dyn Fn(&dyn Implementation) -> Result<(), String>;
+
 /// One of the tests.
 pub struct Check {
     /// A few words.
     pub name: String,
     /// What holds if it passes.
     pub proves: &'static str,
-    test: Box<dyn Fn(&dyn Implementation) -> Result<(), String>>,
+    test: Box<Test>,
 }
 
 impl Check {
