@@ -28,6 +28,8 @@ pub(crate) enum Command {
     Schema,
     /// Make the figures and measurements of a study
     Figures(FiguresArgs),
+    /// Check on this machine, in seconds, that pictures are right
+    Selftest,
 }
 
 #[derive(Debug, ClapArgs)]

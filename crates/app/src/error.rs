@@ -16,6 +16,10 @@ pub(crate) enum Error {
     Memory { needed: u64, allowed: u64 },
     #[error("error: cannot listen to signals: {0}")]
     Listen(std::io::Error),
+    #[error(
+        "error: {failures} of {count} checks failed\nhint: pictures of this program on this machine are not to be trusted; please report it"
+    )]
+    Selftest { failures: usize, count: usize },
     #[error("error: cannot write to standard output: {0}")]
     Stdout(std::io::Error),
     /// Ended by a signal; what there was of the picture is written.
@@ -39,7 +43,7 @@ impl Error {
             Self::Io(eyebeam_io::Error::Scene(_) | eyebeam_io::Error::File(_)) | Self::Scene(_) => 3,
             Self::Io(eyebeam_io::Error::Io { .. }) | Self::Stdout(_) => 4,
             Self::Memory { .. } => 5,
-            Self::Io(eyebeam_io::Error::Encode(_)) | Self::Listen(_) => INTERNAL,
+            Self::Io(eyebeam_io::Error::Encode(_)) | Self::Listen(_) | Self::Selftest { .. } => INTERNAL,
             Self::Signal(number) => 128 + number,
         }
     }

@@ -91,11 +91,17 @@ impl<'s> Render<'s> {
 
     /// A picture without samples.
     pub fn new(scene: &'s Scene, settings: Settings) -> Self {
+        let integrator = settings.integrator.build(settings.max_depth);
+        Self::with_integrator(scene, settings, integrator)
+    }
+
+    /// As [`new`](Self::new), by an integrator of one's own instead of that of the settings.
+    pub fn with_integrator(scene: &'s Scene, settings: Settings, integrator: Box<dyn Integrator>) -> Self {
         Self {
             scene,
             camera: scene.camera(settings.width, settings.height),
             filter: Filter::new(&settings.filter),
-            integrator: settings.integrator.build(settings.max_depth),
+            integrator,
             film: Film::new(settings.width, settings.height, settings.film),
             settings,
             next_unit: 0,

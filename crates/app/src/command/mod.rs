@@ -4,6 +4,7 @@ mod check;
 mod figures;
 mod render;
 mod schema;
+mod selftest;
 
 use std::io::{Write, stdout};
 use std::path::Path;
@@ -20,6 +21,7 @@ pub(crate) fn run(args: Args) -> Result<(), Error> {
         Command::Check(args) => check::run(&args),
         Command::Schema => schema::run(),
         Command::Figures(args) => figures::run(&args),
+        Command::Selftest => selftest::run(),
     }
 }
 

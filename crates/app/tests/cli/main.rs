@@ -6,6 +6,7 @@ mod examples;
 mod files;
 mod output;
 mod pictures;
+mod selftest;
 #[cfg(unix)]
 mod signals;
 mod streams;

@@ -89,7 +89,7 @@ impl AreaLight {
 
     /// Draws a point that shines on `p`, with the density of its direction per solid angle.
     #[inline]
-    pub(super) fn sample(&self, p: Vec3, u: Vec2) -> Option<LightSample> {
+    pub(crate) fn sample(&self, p: Vec3, u: Vec2) -> Option<LightSample> {
         let (point, wi, pdf) = match self.shape {
             Shape::Sphere { center, radius } => self.sample_sphere(center, radius, p, u),
             Shape::Flat(flat) => self.sample_flat(&flat, p, u),
@@ -133,7 +133,7 @@ impl AreaLight {
 
     /// The density with which [`sample`](Self::sample) draws from `p` the direction to `point` of the light.
     #[inline]
-    pub(super) fn pdf(&self, p: Vec3, point: Vec3) -> f32 {
+    pub(crate) fn pdf(&self, p: Vec3, point: Vec3) -> f32 {
         let by_area = |area: f32, n: Vec3| {
             let to = point - p;
             pdf_from_area(1.0 / area, to.length_squared(), to.normalize_or_zero().dot(n))

@@ -77,19 +77,19 @@ impl Disk {
 
     /// Whether it has no size.
     #[inline]
-    pub(super) fn is_delta(&self) -> bool {
+    pub(crate) fn is_delta(&self) -> bool {
         self.one_minus_cos == 0.0
     }
 
     /// Density in the disk per solid angle; 1 for a single direction.
     #[inline]
-    pub(super) fn pdf(&self) -> f32 {
+    pub(crate) fn pdf(&self) -> f32 {
         if self.is_delta() { 1.0 } else { 1.0 / (std::f32::consts::TAU * self.one_minus_cos) }
     }
 
     /// Radiance that is seen along the unit direction `w`.
     #[inline]
-    pub(super) fn le(&self, w: Vec3) -> Spectrum {
+    pub(crate) fn le(&self, w: Vec3) -> Spectrum {
         // The chord, which does not cancel as the cosine does.
         let inside = (w - self.direction).length_squared() < 2.0 * self.one_minus_cos;
         if inside { self.radiance } else { Spectrum::BLACK }
@@ -97,7 +97,7 @@ impl Disk {
 
     /// A uniform direction of the disk, and the radiance; the irradiance for a single direction.
     #[inline]
-    pub(super) fn sample(&self, u: Vec2) -> (Vec3, Spectrum) {
+    pub(crate) fn sample(&self, u: Vec2) -> (Vec3, Spectrum) {
         if self.is_delta() {
             return (self.direction, self.irradiance);
         }

@@ -43,7 +43,7 @@ impl Light {
     }
 
     #[inline]
-    fn sample(&self, p: Vec3, u: Vec2) -> Option<LightSample> {
+    pub(crate) fn sample(&self, p: Vec3, u: Vec2) -> Option<LightSample> {
         match self {
             Self::Area(light) => light.sample(p, u),
             Self::Point { position, intensity } => from_point(*position, p, |_| *intensity),

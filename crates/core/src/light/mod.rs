@@ -33,6 +33,8 @@ pub use spot::SpotLight;
 
 pub(crate) use area::AreaLight;
 pub(crate) use directional::Disk;
+#[cfg(any(test, feature = "testing"))]
+pub(crate) use environment::Environment;
 pub(crate) use lights::{Light, Lights, Scattered, power_heuristic};
 
 /// Lights that are no shapes: `[[light.KIND]]` adds one.

@@ -6,13 +6,13 @@ use std::sync::Arc;
 
 use eyebeam_core::color::Rgb;
 use eyebeam_core::desc::SceneDesc;
-use eyebeam_core::film::{Film, Image};
+use eyebeam_core::film::Image;
 use eyebeam_core::integrator::IntegratorKind;
 use eyebeam_core::light::{DirectionalLight, EnvironmentDesc, ImageEnvironment};
 use eyebeam_core::material::{Dielectric, Emissive, MaterialDesc, Metal};
 use eyebeam_core::render::Settings;
 use eyebeam_core::shape::{MeshDesc, QuadDesc};
-use eyebeam_core::testing::z_test;
+use eyebeam_core::testing::z_test_films;
 
 use crate::setup::*;
 
@@ -164,24 +164,15 @@ fn octahedron(center: [f32; 3], radius: f32) -> MeshDesc {
     }
 }
 
-/// Block by block, within what both films say of their noise.
-fn assert_agree(a: &Film, b: &Film, block: u32, name: &str) {
-    let (a_image, b_image) = (a.develop(), b.develop());
-    let width = a_image.width();
-    let (a_error, b_error) = (standard_errors(a, width), standard_errors(b, width));
-    let expected = |x: u32, y: u32| f64::from(Rgb(b_image.pixel(x, y)).luminance());
-    let error = |x: u32, y: u32| a_error(x, y).hypot(b_error(x, y));
-    for block in [block, width] {
-        z_test(&a_image, expected, error, block).unwrap_or_else(|e| panic!("{name}, blocks of {block}: {e}"));
-    }
-}
-
 fn check(name: &str, desc: &SceneDesc) {
     for (max_depth, spp) in [(1, 16), (2, 512), (3, 512), (50, 512)] {
         let weekend = Settings { height: 24, seed: 3, ..settings(32, spp, max_depth) };
         let path = Settings { integrator: IntegratorKind::Path, seed: 4, ..weekend.clone() };
         let name = format!("{name} at depth {max_depth}");
-        assert_agree(&render(desc, path), &render(desc, weekend), 8, &name);
+        let (path, weekend) = (render(desc, path), render(desc, weekend));
+        for block in [8, 32] {
+            z_test_films(&path, &weekend, block).unwrap_or_else(|e| panic!("{name}, blocks of {block}: {e}"));
+        }
     }
 }
 

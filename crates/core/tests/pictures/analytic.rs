@@ -1,14 +1,13 @@
-//! Scenes with a solution in closed form, within the noise that the film itself reports.
+//! Scenes with a solution in closed form, within their noise.
 
 use std::f64::consts::PI;
 
 use eyebeam_core::color::Rgb;
-use eyebeam_core::desc::SceneDesc;
-use eyebeam_core::film::Film;
-use eyebeam_core::light::{EnvironmentDesc, Gradient};
+use eyebeam_core::integrator::IntegratorKind;
 use eyebeam_core::material::{MaterialDesc, Metal};
+use eyebeam_core::sampler::SamplerKind;
 use eyebeam_core::shape::QuadDesc;
-use eyebeam_core::testing::z_test;
+use eyebeam_core::testing::{scenes, z_test};
 use glam::Vec3;
 
 use crate::setup::*;
@@ -16,62 +15,21 @@ use crate::setup::*;
 /// So narrow that every pixel looks at the same point.
 const NARROW: f32 = 0.01;
 
-/// Pixel by pixel and in larger blocks, by the error that the film reports.
-fn assert_luminance(name: &str, film: &Film, expected: f64) {
-    let image = film.develop();
-    let error = standard_errors(film, image.width());
-    let mean = image.pixels().iter().map(|&p| f64::from(Rgb(p).luminance())).sum::<f64>() / image.pixels().len() as f64;
-    for block in [1, 4, image.width()] {
-        z_test(&image, |_, _| expected, &error, block)
-            .unwrap_or_else(|e| panic!("{name}: {mean}, not {expected}: {e}"));
+/// Every scene that is known beforehand, by every integrator that can see its light, with every sampler.
+#[test]
+fn known_scenes() {
+    const SPP: u32 = 128;
+    for scene in scenes::all() {
+        for (integrator, kind) in IntegratorKind::NAMES {
+            if !scene.by_chance && *kind == IntegratorKind::Weekend {
+                continue;
+            }
+            for (sampler, numbers) in SamplerKind::NAMES {
+                let result = scene.check(|| kind.build(scene.max_depth), *numbers, SPP);
+                result.unwrap_or_else(|e| panic!("{}, {integrator}, {sampler}: {e}", scene.name));
+            }
+        }
     }
-}
-
-/// Floor of albedo 0.8 around the origin, seen from the side.
-fn lit_floor(environment: EnvironmentDesc) -> SceneDesc {
-    let mut desc = scene(environment, matte(0.8), look([3.0, 0.4, 0.0], [0.0; 3], NARROW));
-    desc.shape.quad.push(floor(0.0, 1e3));
-    desc
-}
-
-/// ∫ lerp(bottom, top, (1 + cos θ) / 2) cos θ dω = π (bottom + top) / 2 + π (top − bottom) / 3.
-#[test]
-fn sky_over_a_floor() {
-    let (bottom, top) = (0.2, 1.7);
-    let sky = Gradient { bottom: Rgb::grey(bottom), top: Rgb::grey(top) };
-    let (bottom, top) = (f64::from(bottom), f64::from(top));
-    let expected = f64::from(0.8_f32) * ((bottom + top) / 2.0 + (top - bottom) / 3.0);
-    let desc = lit_floor(EnvironmentDesc::Gradient(sky));
-    render_every_way(&desc, &settings(16, 400, 2), |name, film| assert_luminance(name, film, expected));
-}
-
-/// Right below a ball of radius r at height h the irradiance is π L (r / h)².
-#[test]
-fn ball_over_a_floor() {
-    for (r, h) in [(0.5_f32, 1.0_f32), (0.3, 2.0)] {
-        let mut desc = lit_floor(DARK);
-        desc.material.insert("lamp".to_owned(), lamp(4.0));
-        desc.shape.sphere.push(sphere([0.0, h, 0.0], r));
-        desc.shape.sphere[0].material = Some("lamp".to_owned());
-        let expected = f64::from(0.8_f32) * 4.0 * f64::from(r / h).powi(2);
-        render_every_way(&desc, &settings(16, 1000, 2), |name, film| assert_luminance(name, film, expected));
-    }
-}
-
-/// The form factor of a parallel rectangle above a point (Howell's catalogue, B-4, four times).
-#[test]
-fn rectangle_over_a_floor() {
-    let (half_x, half_z, h) = (0.7_f64, 1.2, 1.5);
-    let mut desc = lit_floor(DARK);
-    desc.material.insert("lamp".to_owned(), lamp(4.0));
-    let (x, y, z) = (half_x as f32, h as f32, half_z as f32);
-    let (u, v) = ([2.0 * x, 0.0, 0.0], [0.0, 0.0, 2.0 * z]);
-    desc.shape.quad.push(QuadDesc { corner: [-x, y, -z], u, v, material: Some("lamp".to_owned()) });
-    let (a, b) = (half_x / h, half_z / h);
-    let quarter = |a: f64, b: f64| a / a.hypot(1.0) * (b / a.hypot(1.0)).atan();
-    let form_factor = 4.0 / (2.0 * PI) * (quarter(a, b) + quarter(b, a));
-    let expected = f64::from(0.8_f32) * 4.0 * form_factor;
-    render_every_way(&desc, &settings(16, 1000, 2), |name, film| assert_luminance(name, film, expected));
 }
 
 /// A pixel is the square around its centre: the border of a lamp through the middle of the picture halves the middle pixels.

@@ -1,16 +1,6 @@
-//! Statistical tests of everything that is sampled.
-//!
-//! Thresholds are p = 1e-3, divided by the number of tests that are run together; seeds are fixed, so a result never
-//! changes without the code. After the chi² tests of Mitsuba (Jakob et al.) and pbrt-v4 (Pharr et al. 2023).
+//! Pearson's chi² test: whether counts are what chances promise.
 
-mod lobe;
-
-use crate::film::Image;
-
-pub use lobe::{Reciprocal, check_lobe};
-
-/// Chance of a false alarm of one test.
-pub const SIGNIFICANCE: f64 = 1e-3;
+use super::SIGNIFICANCE;
 
 /// Pearson's chi² test of counts against expected counts; bins that expect fewer than 5 are pooled.
 ///
@@ -20,7 +10,8 @@ pub fn chi2_counts(observed: &[u64], expected: &[f64]) -> Result<(), String> {
     chi2_at(observed, expected, SIGNIFICANCE)
 }
 
-fn chi2_at(observed: &[u64], expected: &[f64], significance: f64) -> Result<(), String> {
+/// As [`chi2_counts`], with another chance of a false alarm.
+pub(super) fn chi2_at(observed: &[u64], expected: &[f64], significance: f64) -> Result<(), String> {
     assert_eq!(observed.len(), expected.len());
     let (mut chi2, mut bins) = (0.0, 0);
     let mut add = |o: f64, e: f64| {
@@ -81,65 +72,21 @@ fn chi2_survival(x: f64, freedom: usize) -> f64 {
     scale * h
 }
 
-/// Z-test of an image against known radiance: block by block, the mean must lie within what `standard_error` of a pixel
-/// allows at [`SIGNIFICANCE`] divided by the number of blocks.
-///
-/// # Errors
-/// The block that is farthest off.
-pub fn z_test(
-    image: &Image,
-    expected: impl Fn(u32, u32) -> f64,
-    standard_error: impl Fn(u32, u32) -> f64,
-    block: u32,
-) -> Result<(), String> {
-    let (columns, rows) = (image.width().div_ceil(block), image.height().div_ceil(block));
-    let limit = normal_quantile(SIGNIFICANCE / f64::from(columns * rows));
-    let mut worst = (0.0, String::new());
-    for (row, column) in (0..rows).flat_map(|r| (0..columns).map(move |c| (r, c))) {
-        let (mut difference, mut variance, mut size) = (0.0, 0.0, 0.0);
-        for y in row * block..((row + 1) * block).min(image.height()) {
-            for x in column * block..((column + 1) * block).min(image.width()) {
-                let l = crate::color::Rgb(image.pixel(x, y)).luminance();
-                difference += f64::from(l) - expected(x, y);
-                variance += standard_error(x, y).powi(2);
-                size += expected(x, y).abs();
-            }
-        }
-        // Single precision leaves a trace where the noise is gone.
-        let z = difference.abs() / (variance.sqrt() + 1e-6 * size + 1e-12);
-        if z > worst.0 {
-            worst = (z, format!("block ({column}, {row}) is off by {z:.2} standard errors, {limit:.2} are allowed"));
-        }
-    }
-    if worst.0 > limit { Err(worst.1) } else { Ok(()) }
-}
-
-/// The z that a normal variable exceeds on either side with chance `p`.
-fn normal_quantile(p: f64) -> f64 {
-    let (mut lo, mut hi) = (0.0, 40.0);
-    for _ in 0..100 {
-        let z = 0.5 * (lo + hi);
-        if libm::erfc(z / std::f64::consts::SQRT_2) > p { lo = z } else { hi = z }
-    }
-    hi
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
 
     #[test]
-    fn chi2_survival_matches_tables() {
+    fn survival_matches_tables() {
         for (x, freedom, p) in
             [(3.841, 1, 0.05), (10.828, 1, 0.001), (18.307, 10, 0.05), (149.449, 100, 0.001), (1000.0, 1000, 0.4940)]
         {
             assert!((chi2_survival(x, freedom) - p).abs() < 2e-4, "chi² {x}, {freedom}");
         }
-        assert!((normal_quantile(0.05) - 1.959_96).abs() < 1e-4);
     }
 
     #[test]
-    fn chi2_finds_what_is_wrong() {
+    fn finds_what_is_wrong() {
         chi2_counts(&[1000, 1010, 990], &[1000.0; 3]).unwrap();
         chi2_counts(&[1200, 900, 900], &[1000.0; 3]).unwrap_err();
         chi2_counts(&[1000, 1000, 50], &[1025.0, 1025.0, 0.0]).unwrap_err();

@@ -1,0 +1,137 @@
+//! Scenes whose picture is known beforehand: every pixel looks at the same point and has the same luminance.
+
+mod build;
+mod far;
+mod glass;
+mod lamps;
+mod room;
+
+use std::num::NonZeroUsize;
+use std::ops::Range;
+
+use crate::color::luminance;
+use crate::desc::SceneDesc;
+use crate::film::{BoxFilter, FilmOptions, FilterDesc, PixelSum, Tile};
+use crate::integrator::{Integrator, IntegratorKind};
+use crate::render::{Monitor, Render, Settings};
+use crate::sampler::SamplerKind;
+use crate::scene::Scene;
+use crate::testing::Estimate;
+
+/// A scene with the luminance that all its pixels have.
+#[derive(Clone, Debug)]
+pub struct KnownScene {
+    /// What it is.
+    pub name: String,
+    /// The scene; its camera looks through one point of it.
+    pub desc: SceneDesc,
+    /// The most edges of a path.
+    pub max_depth: u32,
+    /// The luminance of every pixel.
+    pub expected: f64,
+    /// Whether surfaces' own directions find the light. Otherwise only integrators that sample lights see it.
+    pub by_chance: bool,
+}
+
+/// All of them.
+pub fn all() -> Vec<KnownScene> {
+    [room::scenes(), glass::scenes(), lamps::scenes(), far::scenes()].concat()
+}
+
+impl KnownScene {
+    fn new(name: impl Into<String>, desc: SceneDesc, max_depth: u32, expected: f64) -> Self {
+        Self { name: name.into(), desc, max_depth, expected, by_chance: true }
+    }
+
+    /// With light that only light sampling finds.
+    fn hidden(self) -> Self {
+        Self { by_chance: false, ..self }
+    }
+
+    /// Pixels along a side of the pictures that are rendered.
+    const SIDE: u32 = 6;
+
+    /// Renders a small picture for each seed. All pixels estimate the same number, and independently, also with Sobol
+    /// points, which each pixel shifts by random numbers of its own: so their scatter tells the error of their mean.
+    ///
+    /// # Errors
+    /// If the scene cannot be built, or samples were no numbers.
+    pub fn render(
+        &self,
+        integrator: impl Fn() -> Box<dyn Integrator>,
+        sampler: SamplerKind,
+        spp: u32,
+        seeds: Range<u64>,
+    ) -> Result<Estimate, String> {
+        let scene = Scene::build(&self.desc).map_err(|problems| format!("{problems:?}"))?;
+        let mut pixels = Vec::new();
+        for seed in seeds {
+            let settings = Settings {
+                width: Self::SIDE,
+                height: Self::SIDE,
+                spp,
+                max_depth: self.max_depth,
+                seed,
+                integrator: IntegratorKind::default(),
+                sampler,
+                filter: FilterDesc::Box(BoxFilter::default()),
+                film: FilmOptions::default(),
+                threads: NonZeroUsize::MIN,
+            };
+            let mut render = Render::with_integrator(&scene, settings, integrator());
+            while !render.is_done() {
+                render.step(&Monitor::default());
+            }
+            if render.film().sample_counts().dropped > 0 {
+                return Err("samples are no numbers".to_owned());
+            }
+            let mean = |sum: &PixelSum| luminance(sum.mean().map(f64::from));
+            pixels.extend(render.film().tiles().iter().flat_map(Tile::pixels).map(|(_, sum)| mean(sum)));
+        }
+        Ok(Estimate::new(&pixels))
+    }
+
+    /// Renders it and compares the luminance with what is known: a z-test at
+    /// [`SIGNIFICANCE`](crate::testing::SIGNIFICANCE) over the number of tests that are run together.
+    ///
+    /// # Errors
+    /// If it is farther off than noise and single precision allow.
+    pub fn check(
+        &self,
+        integrator: impl Fn() -> Box<dyn Integrator>,
+        sampler: SamplerKind,
+        spp: u32,
+    ) -> Result<(), String> {
+        const TESTS: u32 = 200;
+        const ROUNDING: f64 = 2e-5;
+        self.render(integrator, sampler, spp, 0..8)?.z_test(self.expected, ROUNDING, TESTS)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::integrator::Weekend;
+
+    #[test]
+    fn scenes_are_sound_and_have_names_of_their_own() {
+        let scenes = all();
+        let mut names: Vec<_> = scenes.iter().map(|s| s.name.clone()).collect();
+        names.sort();
+        names.dedup();
+        assert_eq!(names.len(), scenes.len());
+        for scene in scenes {
+            assert_eq!(scene.desc.check(), [], "{}", scene.name);
+            assert!(scene.expected.is_finite() && scene.expected >= 0.0, "{}: {}", scene.name, scene.expected);
+        }
+    }
+
+    #[test]
+    fn a_wrong_number_is_found() {
+        let mut scene = all().into_iter().find(|scene| scene.expected == 1.0).unwrap();
+        let integrator = |max_depth| move || Box::new(Weekend { max_depth }) as Box<dyn Integrator>;
+        scene.check(integrator(scene.max_depth), SamplerKind::Sobol, 16).unwrap();
+        scene.expected *= 1.001;
+        scene.check(integrator(scene.max_depth), SamplerKind::Sobol, 16).unwrap_err();
+    }
+}
