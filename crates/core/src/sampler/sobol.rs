@@ -74,7 +74,7 @@ impl Sobol<'_> {
         self.set += 1;
         let hash = mix(self.key.wrapping_add(u64::from(set).wrapping_mul(GAMMA)));
         // The last bits of the hash are not used by the shifts.
-        let index = self.index ^ hash as u32 % BLOCK;
+        let index = self.index ^ (hash as u32 % BLOCK);
         match self.points.points.get((set * self.points.len + index) as usize) {
             Some(&point) if set < SETS => (point, hash),
             _ => {
@@ -124,7 +124,8 @@ fn owen_scramble(x: u32, key: u64) -> u32 {
     (0..32).fold(0, |flips, bit| {
         // The bits before this one, with a one before them, so that 0, 00 and 000 differ.
         let before = (1_u64 << 32 | u64::from(x)) >> (32 - bit);
-        flips | (mix(key ^ before.wrapping_mul(GAMMA)) >> 63) as u32 * (1 << 31 >> bit)
+        let flip = (mix(key ^ before.wrapping_mul(GAMMA)) >> 63) as u32;
+        flips | flip << (31 - bit)
     }) ^ x
 }
 

@@ -153,7 +153,7 @@ fn octahedron(center: [f32; 3], radius: f32) -> MeshDesc {
     let corner = |i: u32, axis: u32| 2 * axis + (i >> axis & 1);
     let triangle = |i: u32| {
         let [x, y, z] = [0, 1, 2].map(|axis| corner(i, axis));
-        if i.count_ones() % 2 == 0 { [x, y, z] } else { [x, z, y] }
+        if i.count_ones().is_multiple_of(2) { [x, y, z] } else { [x, z, y] }
     };
     MeshDesc {
         vertices: normals.iter().map(vertex).collect(),

@@ -5,7 +5,7 @@
 
 use eyebeam_core::color::Spectrum;
 use eyebeam_core::desc::SceneDesc;
-use eyebeam_core::film::Tile;
+use eyebeam_core::film::{Seen, Tile};
 use eyebeam_core::integrator::{Integrator, Unit};
 use eyebeam_core::interaction::SurfaceInteraction;
 use eyebeam_core::material::MaterialDesc;
@@ -23,7 +23,7 @@ pub(crate) struct Reference {
 
 impl Integrator for Reference {
     fn render(&self, scene: &Scene, unit: &Unit<'_>, tile: &mut Tile) -> u64 {
-        unit.for_each_sample(tile, |ray, sampler| self.radiance(scene, ray, sampler));
+        unit.for_each_sample(tile, |ray, sampler| Seen::surface(self.radiance(scene, ray, sampler)));
         0
     }
 }
