@@ -114,7 +114,7 @@ fn places_on_flat_shapes() {
     desc.shape.quad.push(QuadDesc { corner, u, v, material: None });
     let vertices = vec![[-2.0, 1.5, 1.0], [2.0, 1.5, 1.0], [-2.0, 2.0, 1.0]];
     let triangles = vec![[0, 1, 2]];
-    desc.shape.mesh.push(MeshDesc { vertices, triangles, normals: vec![[0.0, 0.75, 1.0]; 3], material: None });
+    desc.shape.mesh.push(MeshDesc { vertices, triangles, normals: vec![[0.0, 0.75, 1.0]; 3], ..MeshDesc::default() });
     let hits = hits(&desc, settings_of(64), false);
     let quad = pixel(&hits, 17, 13);
     let p = at(Vec2::new(17.5, 13.5));
