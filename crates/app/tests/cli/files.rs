@@ -58,7 +58,7 @@ fn exit_codes() {
 fn warnings_are_told_once() {
     let place = Place::new();
     place.write("dark.toml", DARK);
-    let said = "warning: nothing shines: the picture will be black\n  --> dark.toml:1:1\nhint: ";
+    let said = "warning: nothing shines: the picture will be black\n  --> dark.toml:1:2\nhint: ";
     let told = |stderr: &str| stderr.matches("nothing shines").count();
     let run = place.run("check dark.toml").ends_with(0);
     assert!(run.stderr.starts_with(said) && told(&run.stderr) == 1, "{}", run.stderr);
@@ -66,7 +66,7 @@ fn warnings_are_told_once() {
     let run = place.run(render).ends_with(0);
     assert!(run.stderr.starts_with(said) && told(&run.stderr) == 1, "{}", run.stderr);
     let warnings = &place.json("a.json")["warnings"];
-    assert_eq!(*warnings, serde_json::json!(["dark.toml:1:1: nothing shines: the picture will be black"]));
+    assert_eq!(*warnings, serde_json::json!(["dark.toml:1:2: nothing shines: the picture will be black"]));
     assert_eq!(place.run(&format!("{render} -q")).ends_with(0).stderr, "");
     place.run("render scene.toml -r 8x8 --spp 1 -o a.png --stats a.json").ends_with(0);
     assert_eq!(place.json("a.json")["warnings"], serde_json::json!([]));
