@@ -171,7 +171,7 @@ impl Flat {
     }
 
     /// Lengths of the shape away, sampling the area makes as little noise as the solid angle, and costs less.
-    const FAR: f32 = 20.0;
+    const FAR: f32 = 2.0;
 
     #[inline]
     fn sampling(&self, p: Vec3) -> FlatSampling {

@@ -82,3 +82,76 @@ fn visible(ns: Vec3, n: Vec3, wo: Vec3) -> Vec3 {
     let raised = mirrored + n * (least - height);
     (wo + raised.normalize_or(n)).normalize_or(n)
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::sampler::Independent;
+    use crate::sampling::uniform_sphere;
+    use eyebeam_bvh::{Bvh, Primitive, Ray, Triangle};
+    use glam::UVec2;
+
+    /// Whatever the normals, and from wherever it is seen: the shading normal is a unit vector on the viewer's side, and mirrors
+    /// the view to above the surface; where it did so by itself, it is left alone.
+    #[test]
+    fn the_mirrored_view_is_above_the_surface() {
+        for i in 0..20_000 {
+            let mut numbers = Independent::new(1, UVec2::ZERO, i);
+            let [n, a, b] = [(); 3].map(|()| uniform_sphere(numbers.get_2d()));
+            let wo = if a.dot(n) < 0.0 { -a } else { a };
+            let ns = (b + 1.2 * n).normalize_or(n);
+            let ns = if ns.dot(n) < 0.0 { -ns } else { ns };
+            let bent = visible(ns, n, wo);
+            assert!((bent.length() - 1.0).abs() < 1e-5 && bent.dot(wo) > 0.0, "{bent} seen from {wo}");
+            assert!(reflect_at(wo, bent).dot(n) > -1e-6, "{bent} mirrors {wo} into {n}");
+            if reflect_at(wo, ns).dot(n) > 0.01 {
+                assert_eq!(bent, ns);
+            }
+        }
+    }
+
+    /// A triangle in a ball of radius 1: seen from outside, points are lifted towards the ball; from inside, where the ball is
+    /// hollow, they stay. The surface that corners' tangent planes make of an eighth of a ball is farthest out in the middle
+    /// of an edge: half the edge's ends, lifted by a quarter of each, is 3/4 (1, 1, 0).
+    #[test]
+    fn points_are_lifted_to_the_round_surface() {
+        let corners = [Vec3::X, Vec3::Y, Vec3::Z];
+        let [a, b, c] = corners;
+        let bvh = Bvh::list(&vec![Primitive::Triangle(Triangle { a, b, c })]).unwrap();
+        let smooth = Smooth::new(vec![[0, 1, 2]], &corners.map(|v| v.to_array()));
+        let n = Vec3::ONE.normalize();
+        let farthest = 0.75 * 2.0_f32.sqrt() + 1e-5;
+        for side in [1.0, -1.0] {
+            for i in 0..500 {
+                let u = Independent::new(2, UVec2::ZERO, i).get_2d();
+                let weights = crate::sampling::uniform_triangle(u);
+                let p = a + (b - a) * weights.x + (c - a) * weights.y;
+                let ray = Ray::new(p + side * n, -side * n);
+                let hit = bvh.intersect(&ray).unwrap();
+                let shading = smooth.shading(0, [(b - a).as_dvec3(), (c - a).as_dvec3()], n, ray.d, &hit);
+                // Beyond 45 degrees it would mirror the view into the triangle, and is bent.
+                let round = p.normalize();
+                assert!(round.dot(n) < 0.72 || shading.ns.dot(round) > 0.9999, "the normal is that of the ball");
+                let lifted = p + shading.lift;
+                if side > 0.0 {
+                    assert!(lifted.length() >= p.length() - 1e-6 && lifted.length() < farthest, "{p} to {lifted}");
+                    assert!(p.length() > 0.99 || lifted.length() > p.length());
+                } else {
+                    assert!(shading.lift.length() < 1e-6);
+                }
+            }
+        }
+    }
+
+    #[test]
+    fn broken_normals_leave_a_mesh_flat() {
+        let smooth = Smooth::new(vec![[0, 1, 2], [0, 1, 9]], &[[0.0; 3], [0.0, 0.0, 1.0], [0.0, 0.0, 1.0]]);
+        let [a, b, c] = [Vec3::ZERO, Vec3::X, Vec3::Y];
+        let bvh = Bvh::list(&vec![Primitive::Triangle(Triangle { a, b, c })]).unwrap();
+        let hit = bvh.intersect(&Ray::new(Vec3::new(0.3, 0.3, 1.0), Vec3::NEG_Z)).unwrap();
+        for triangle in [0, 1, 2] {
+            let shading = smooth.shading(triangle, [DVec3::X, DVec3::Y], Vec3::Z, Vec3::NEG_Z, &hit);
+            assert_eq!((shading.ns, shading.lift), (Vec3::Z, Vec3::ZERO));
+        }
+    }
+}

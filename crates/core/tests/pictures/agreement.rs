@@ -9,7 +9,7 @@ use eyebeam_core::desc::SceneDesc;
 use eyebeam_core::film::Image;
 use eyebeam_core::integrator::IntegratorKind;
 use eyebeam_core::light::{DirectionalLight, EnvironmentDesc, ImageEnvironment};
-use eyebeam_core::material::{Dielectric, Emissive, MaterialDesc, Metal};
+use eyebeam_core::material::{Conductor, Dielectric, Emissive, MaterialDesc, Metal};
 use eyebeam_core::render::Settings;
 use eyebeam_core::shape::{MeshDesc, QuadDesc};
 use eyebeam_core::testing::z_test_films;
@@ -93,6 +93,29 @@ fn lamps() -> SceneDesc {
         material: Some("lamp".to_owned()),
         ..MeshDesc::default()
     });
+    desc
+}
+
+/// Frosted glass and facets of metal: lobes that both ways find.
+fn frosted() -> SceneDesc {
+    let mut desc = still_life(EnvironmentDesc::default());
+    let frosted = |roughness| MaterialDesc::Dielectric(Dielectric { eta: 1.5, roughness });
+    let copper = Conductor { reflectance: Some(Rgb([0.9, 0.6, 0.4])), roughness: 0.6, ..Conductor::default() };
+    let (eta, k) = (Some(Rgb([0.2, 0.9, 1.1])), Some(Rgb([3.9, 2.5, 2.4])));
+    let gold = Conductor { eta, k, reflectance: None, roughness: 0.5 };
+    for (name, material) in [
+        ("lamp", lamp(4.0)),
+        ("frosted", frosted(0.6)),
+        ("copper", MaterialDesc::Conductor(copper)),
+        ("gold", MaterialDesc::Conductor(gold)),
+    ] {
+        with(&mut desc, name, material);
+    }
+    desc.shape.quad.push(quad([-1.0, 3.0, -1.0], [2.0, 0.0, 0.0], [0.0, 0.0, 2.0], "lamp"));
+    for (center, name) in [([1.2, 0.6, 0.2], "frosted"), ([-1.2, 0.6, 0.2], "copper"), ([0.0, 0.4, 1.2], "gold")] {
+        desc.shape.sphere.push(sphere(center, center[1]));
+        desc.shape.sphere.last_mut().unwrap().material = Some(name.to_owned());
+    }
     desc
 }
 
@@ -182,6 +205,7 @@ fn where_light_sampling_helps() {
     check("lamps", &lamps());
     check("panorama", &panorama());
     check("sun", &sun());
+    check("frosted", &frosted());
 }
 
 #[test]
