@@ -143,7 +143,13 @@ fn matte(albedo: f32) -> MaterialDesc {
 /// A floor with balls below many small lamps, all together as bright, of which some are much brighter than others.
 fn hall(count: u32) -> SceneDesc {
     let mut desc = SceneDesc {
-        camera: CameraDesc { look_from: [0.0, 3.0, 14.0], look_at: [0.0, 0.5, 0.0], ..CameraDesc::default() },
+        // The lamps are above of what is seen.
+        camera: CameraDesc {
+            look_from: [0.0, 3.0, 14.0],
+            look_at: [0.0, 0.5, 0.0],
+            vfov: Some(20.0),
+            ..CameraDesc::default()
+        },
         environment: EnvironmentDesc::None(NoLight {}),
         ..SceneDesc::default()
     };
@@ -165,7 +171,7 @@ fn hall(count: u32) -> SceneDesc {
         for i in (class..count).step_by(3) {
             let mut numbers = Independent::new(1, UVec2::ZERO, i);
             let (place, height) = (numbers.get_2d(), numbers.get_1d());
-            let center = [20.0 * place.x - 10.0, 2.5 + 2.0 * height, 20.0 * place.y - 10.0];
+            let center = [20.0 * place.x - 10.0, 3.5 + 2.0 * height, 20.0 * place.y - 10.0];
             let size = 2.0 / (f64::from(count) as f32).sqrt();
             let corner = |dx: f32, dz: f32| [center[0] + size * dx, center[1], center[2] + size * dz];
             let first = mesh.vertices.len() as u32;
@@ -173,10 +179,8 @@ fn hall(count: u32) -> SceneDesc {
             mesh.triangles.push([first, first + 1, first + 2]);
         }
         let radiance = Rgb::grey(2.0 * 8.0_f32.powi(class as i32));
-        desc.material.insert(
-            format!("lamp {class}"),
-            MaterialDesc::Emissive(Emissive { radiance, two_sided: true, ..Emissive::default() }),
-        );
+        desc.material
+            .insert(format!("lamp {class}"), MaterialDesc::Emissive(Emissive { radiance, ..Emissive::default() }));
         if !mesh.triangles.is_empty() {
             desc.shape.mesh.push(mesh);
         }
