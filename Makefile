@@ -102,7 +102,7 @@ pictures:
 	cargo run --release -- render scenes/spheres.toml -o docs/pictures/spheres.png --spp 1024
 	cargo run --release -- render scenes/weekend.toml -o docs/pictures/weekend.png --spp 512 -r 800x450
 	cargo run --release -- render scenes/cornell.toml -o docs/pictures/cornell.png --spp 1024
-	cargo run --release -- render scenes/sky.toml -o docs/pictures/sky.png --spp 512
+	cargo run --release -- render scenes/sky.toml -o docs/pictures/sky.png --spp 192
 	cargo run --release -- render scenes/lights.toml -o docs/pictures/lights.png --spp 512
 	cargo run --release -- render scenes/roughness.toml -o docs/pictures/roughness.png --spp 512 -r 800x300
 	cargo run --release -- render scenes/two-spheres.toml -o docs/pictures/two-spheres.png --spp 1024
