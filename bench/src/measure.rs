@@ -41,9 +41,7 @@ pub fn samples(desc: &SceneDesc) -> u64 {
 pub fn render(scene: &Scene, desc: &SceneDesc, threads: NonZeroUsize) -> (Film, Monitor) {
     let mut render = Render::new(scene, Settings { threads, ..Settings::from(&desc.render) });
     let monitor = Monitor::default();
-    while !render.is_done() {
-        render.step(&monitor);
-    }
+    render.finish(&monitor);
     (render.film().clone(), monitor)
 }
 

@@ -69,9 +69,7 @@ pub fn run(options: &Peer, spp: u32) -> Result<(), Box<dyn Error>> {
     let start = Instant::now();
     let mut render = Render::new(&scene, Settings { threads: options.threads, ..Settings::from(&desc.render) });
     let monitor = Monitor::default();
-    while !render.is_done() {
-        render.step(&monitor);
-    }
+    render.finish(&monitor);
     let time = start.elapsed();
     write(&options.out, &render.film().develop())?;
     let result = json!({

@@ -18,9 +18,7 @@
 //! let scene = Scene::build(&desc).unwrap();
 //! let settings = Settings { width: 32, height: 32, spp: 4, ..Settings::from(&desc.render) };
 //! let mut render = Render::new(&scene, settings);
-//! while !render.is_done() {
-//!     render.step(&Monitor::default());
-//! }
+//! render.finish(&Monitor::default());
 //! let image = render.film().develop();
 //! assert!(image.pixel(16, 16)[0] < image.pixel(0, 0)[0], "the ball is darker than the sky");
 //! ```

@@ -129,6 +129,13 @@ impl<'s> Render<'s> {
         self.next_unit += done as u64;
     }
 
+    /// Steps until every pixel has all its samples, or until it is asked to pause.
+    pub fn finish(&mut self, monitor: &Monitor) {
+        while !self.is_done() && !monitor.pause.load(Relaxed) {
+            self.step(monitor);
+        }
+    }
+
     /// Units of work in the whole render.
     pub fn units(&self) -> u64 {
         u64::from(self.settings.spp.div_ceil(Self::SAMPLES_PER_PASS)) * self.film.tile_count() as u64

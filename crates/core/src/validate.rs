@@ -2,6 +2,8 @@
 
 use std::fmt;
 
+use glam::{DVec3, Vec3};
+
 use crate::color::Rgb;
 
 /// Something wrong with a [`SceneDesc`](crate::desc::SceneDesc). Readers turn `path` into a line of their file.
@@ -142,9 +144,21 @@ impl Checker {
         self.require(v != [0.0; 3], key, || format!("`{key}` must not be [0, 0, 0]"), "give it a length");
     }
 
-    /// That two points are not the same.
-    pub(crate) fn apart(&mut self, key: &str, a: [f32; 3], other: &str, b: [f32; 3]) {
-        let message = || format!("`{other}` and `{key}` are the same point, so it points nowhere");
-        self.require(a != b, key, message, "move one of them");
+    /// That what stands at `from` can look at `look_at`, which `does` says as in "it points".
+    pub(crate) fn line_of_sight(&mut self, key: &str, from: [f32; 3], look_at: [f32; 3], does: &str) {
+        self.finite(key, &from);
+        self.finite("look_at", &look_at);
+        let message = || format!("`{key}` and `look_at` are the same point, so {does} nowhere");
+        self.require(from != look_at, "look_at", message, "move one of them");
+    }
+
+    /// That `up` is a direction, and not the line of sight.
+    pub(crate) fn up(&mut self, up: [f32; 3], from: [f32; 3], look_at: [f32; 3]) {
+        self.nonzero("up", up);
+        let [from, at, up] = [from, look_at, up].map(|v| Vec3::from(v).as_dvec3());
+        let sine = (at - from).normalize_or_zero().cross(up.normalize_or_zero()).length();
+        let says_something = from != at && from.is_finite() && at.is_finite() && up != DVec3::ZERO;
+        let message = || "`up` points along the line of sight".to_owned();
+        self.require(!says_something || sine >= 1e-6 || sine.is_nan(), "up", message, "try up = [0, 0, 1]");
     }
 }

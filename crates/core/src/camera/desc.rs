@@ -10,7 +10,7 @@
 //! fov = 180
 //! ```
 
-use glam::{DVec3, Vec3};
+use glam::Vec3;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
@@ -99,20 +99,8 @@ impl CameraDesc {
     }
 
     fn check_pose(&self, c: &mut Checker) {
-        c.finite("look_from", &self.look_from);
-        c.finite("look_at", &self.look_at);
-        c.nonzero("up", self.up);
-        let [from, at, up] = [self.look_from, self.look_at, self.up].map(|v| Vec3::from(v).as_dvec3());
-        let sine = |a: DVec3, b: DVec3| a.normalize_or_zero().cross(b.normalize_or_zero()).length();
-        if from == at {
-            c.problem(
-                "look_at",
-                "`look_from` and `look_at` are the same point, so the camera looks nowhere",
-                Some("move one of them".to_owned()),
-            );
-        } else if from.is_finite() && at.is_finite() && up != DVec3::ZERO && sine(at - from, up) < 1e-6 {
-            c.problem("up", "`up` points along the line of sight", Some("try up = [0, 0, 1]".to_owned()));
-        }
+        c.line_of_sight("look_from", self.look_from, self.look_at, "the camera looks");
+        c.up(self.up, self.look_from, self.look_at);
     }
 
     fn check_lens(&self, c: &mut Checker) {

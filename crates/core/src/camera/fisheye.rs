@@ -25,8 +25,8 @@ use glam::{Vec2, Vec3};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
-use crate::camera::pose::Pose;
 use crate::camera::{CameraDesc, half_size};
+use crate::math::Pose;
 use crate::math::sin_cos_turns;
 use crate::validate::Checker;
 
@@ -81,7 +81,7 @@ impl Fisheye {
     pub(super) fn new(desc: &CameraDesc, kind: &FisheyeDesc, width: u32, height: u32) -> Self {
         let center = half_size(width, height);
         Self {
-            pose: Pose::new(desc),
+            pose: Pose::new(desc.look_from, desc.look_at, desc.up),
             center,
             radius: center.min_element(),
             half_fov: kind.fov / 720.0,

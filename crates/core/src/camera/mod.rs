@@ -8,14 +8,13 @@ mod desc;
 mod fisheye;
 mod orthographic;
 mod panorama;
-mod pose;
 mod thin_lens;
 
 use eyebeam_bvh::Ray;
 use glam::{Vec2, Vec3};
 
+use crate::math::Pose;
 use crate::sampler::Sampler;
-use pose::Pose;
 
 pub use aperture::BokehDesc;
 pub use desc::CameraDesc;

@@ -15,8 +15,8 @@ use glam::{Vec2, Vec3};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
-use crate::camera::pose::Pose;
 use crate::camera::{CameraDesc, half_size};
+use crate::math::Pose;
 use crate::validate::Checker;
 
 /// Parallel rays: `[camera.orthographic]`.
@@ -51,7 +51,11 @@ pub struct Orthographic {
 
 impl Orthographic {
     pub(super) fn new(desc: &CameraDesc, kind: &OrthographicDesc, width: u32, height: u32) -> Self {
-        Self { pose: Pose::new(desc), center: half_size(width, height), pixel: kind.height / height as f32 }
+        Self {
+            pose: Pose::new(desc.look_from, desc.look_at, desc.up),
+            center: half_size(width, height),
+            pixel: kind.height / height as f32,
+        }
     }
 
     pub(super) fn pose(&self) -> &Pose {

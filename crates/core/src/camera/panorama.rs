@@ -23,7 +23,7 @@ use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 use crate::camera::CameraDesc;
-use crate::camera::pose::Pose;
+use crate::math::Pose;
 use crate::math::sin_cos_turns;
 
 /// All directions: `[camera.panorama]`. It has no settings.
@@ -41,7 +41,7 @@ pub struct Panorama {
 
 impl Panorama {
     pub(super) fn new(desc: &CameraDesc, width: u32, height: u32) -> Self {
-        Self { pose: Pose::new(desc), size: Vec2::new(width as f32, height as f32) }
+        Self { pose: Pose::new(desc.look_from, desc.look_at, desc.up), size: Vec2::new(width as f32, height as f32) }
     }
 
     pub(super) fn pose(&self) -> &Pose {

@@ -16,8 +16,8 @@ use eyebeam_bvh::Ray;
 use glam::{Vec2, Vec3};
 
 use crate::camera::aperture::Aperture;
-use crate::camera::pose::Pose;
 use crate::camera::{CameraDesc, half_size};
+use crate::math::Pose;
 use crate::sampler::Sampler;
 
 /// A perspective camera ready to make rays for a picture of a given size.
@@ -42,7 +42,7 @@ impl ThinLens {
         let radius = desc.defocus_angle.map_or(0.5 * desc.aperture.unwrap_or(0.0) / focus, half_tan);
         let bokeh = desc.bokeh.clone().unwrap_or_default();
         Self {
-            pose: Pose::new(desc),
+            pose: Pose::new(desc.look_from, desc.look_at, desc.up),
             center: half_size(width, height),
             pixel: 2.0 * half_tan(desc.vfov.unwrap_or(CameraDesc::DEFAULT_VFOV)) / height as f32,
             focus,

@@ -12,9 +12,10 @@ use crate::color::Spectrum;
 use crate::film::{Seen, Tile};
 use crate::integrator::{Integrator, Unit};
 use crate::interaction::SurfaceInteraction;
-use crate::light::{Scattered, power_heuristic};
+use crate::light::Scattered;
 use crate::material::Bsdf;
 use crate::sampler::Sampler;
+use crate::sampling::power_heuristic;
 use crate::scene::Scene;
 
 /// Paths with light sampling, of at most `max_depth` edges.

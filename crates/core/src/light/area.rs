@@ -82,7 +82,8 @@ impl AreaLight {
                 let far = if kind == Kind::Triangle { corner + u } else { corner + u + v };
                 let points = [corner + u, corner + v, far];
                 let [lo, hi] = [Vec3::min, Vec3::max].map(|f| points.into_iter().fold(corner, f));
-                LightBounds { two_sided: self.two_sided, ..LightBounds::flat(lo, hi, n, power(area)) }
+                let bounds = if self.two_sided { LightBounds::flat_two_sided } else { LightBounds::flat };
+                bounds(lo, hi, n, power(area))
             }
         }
     }

@@ -13,7 +13,7 @@ use serde::{Deserialize, Serialize};
 
 use crate::array::array;
 use crate::color::{Rgb, Spectrum};
-use crate::light::point::one;
+use crate::light::one;
 use crate::math::Frame;
 use crate::sampling::uniform_disk;
 use crate::validate::Checker;
@@ -61,13 +61,23 @@ pub(crate) struct Disk {
 impl Disk {
     /// Of an angular diameter in radians.
     pub(crate) fn new(direction: Vec3, angle: f32, irradiance: Spectrum) -> Self {
+        let unit = Self::unit(angle);
+        let (angle, radiance) = if unit > 1e-12 { (angle, irradiance * (1.0 / unit)) } else { (0.0, Spectrum::BLACK) };
+        Self { irradiance, ..Self::of_radiance(direction, angle, radiance) }
+    }
+
+    /// Of an angular diameter in radians, and the radiance that is seen.
+    pub(super) fn of_radiance(direction: Vec3, angle: f32, radiance: Spectrum) -> Self {
         let direction = direction.normalize();
-        let (half, quarter) = (libm::sinf(0.5 * angle), libm::sinf(0.25 * angle));
-        // The irradiance of a disk of radiance 1: ∫ cos θ dω.
-        let unit = std::f32::consts::PI * half * half;
-        let one_minus_cos = if unit > 1e-12 { 2.0 * quarter * quarter } else { 0.0 };
-        let radiance = if one_minus_cos > 0.0 { irradiance * (1.0 / unit) } else { Spectrum::BLACK };
-        Self { frame: Frame::from_z(direction), direction, one_minus_cos, irradiance, radiance }
+        let sin = libm::sinf(0.25 * angle);
+        let irradiance = radiance * Self::unit(angle);
+        Self { frame: Frame::from_z(direction), direction, one_minus_cos: 2.0 * sin * sin, irradiance, radiance }
+    }
+
+    /// Irradiance of a disk of radiance 1: ∫ cos θ dω.
+    fn unit(angle: f32) -> f32 {
+        let sin = libm::sinf(0.5 * angle);
+        std::f32::consts::PI * sin * sin
     }
 
     /// Irradiance of a surface that faces it.

@@ -17,6 +17,7 @@ use crate::film::Image;
 use crate::light::directional::Disk;
 use crate::light::lat_long::{EnvironmentSampling, LatLong};
 use crate::light::sky::{Sky, SkyDesc, SunDisk};
+use crate::light::unscaled;
 use crate::validate::Checker;
 
 /// The environment as a scene states it: `[environment.KIND]`.
@@ -83,10 +84,6 @@ pub struct ImageEnvironment {
     pub image: Option<Arc<Image>>,
 }
 
-fn unscaled() -> f32 {
-    1.0
-}
-
 /// Darkness; it has no settings.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
@@ -143,11 +140,8 @@ impl EnvironmentDesc {
             },
             Self::Sky(sky) => {
                 let Sky { image, sun } = Sky::bake(sky);
-                let disk = |sun: SunDisk| {
-                    let sin = libm::sinf(sun.angular_radius);
-                    let irradiance = Spectrum::from(sun.radiance) * (std::f32::consts::PI * sin * sin);
-                    Disk::new(sun.direction, 2.0 * sun.angular_radius, irradiance)
-                };
+                let disk =
+                    |sun: SunDisk| Disk::of_radiance(sun.direction, 2.0 * sun.angular_radius, sun.radiance.into());
                 return (Environment::Image(LatLong::new(Arc::new(image), 0.0, 1.0, sampling)), sun.map(disk));
             }
             Self::None(NoLight {}) => Environment::Constant(Spectrum::BLACK),

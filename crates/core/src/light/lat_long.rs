@@ -19,7 +19,7 @@ use glam::{Vec2, Vec3};
 
 use crate::color::{Rgb, Spectrum};
 use crate::film::Image;
-use crate::math::sin_cos_turns;
+use crate::math::{BELOW_ONE, sin_cos_turns};
 
 /// How light from all around is found. The picture is the same, the noise is not.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
@@ -244,7 +244,7 @@ fn search(before: &[f32], u: f32) -> (usize, f32) {
     let index = before.partition_point(|&b| b <= u).saturating_sub(1);
     let end = before.get(index + 1).copied().unwrap_or(1.0);
     let width = end - before[index];
-    (index, if width > 0.0 { ((u - before[index]) / width).clamp(0.0, 0.999_999_94) } else { 0.0 })
+    (index, if width > 0.0 { ((u - before[index]) / width).clamp(0.0, BELOW_ONE) } else { 0.0 })
 }
 
 /// A place in 0..1 whose density goes linearly from `a` to `b`.

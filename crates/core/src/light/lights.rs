@@ -19,6 +19,8 @@ use crate::light::projector::Projector;
 use crate::light::select::{LightBounds, LightSelection, LightSelector};
 use crate::light::spot::Spot;
 use crate::light::{LightSample, Target};
+use crate::math::BELOW_ONE;
+use crate::sampling::power_heuristic;
 
 /// A light that is somewhere.
 #[derive(Clone, Debug)]
@@ -49,7 +51,7 @@ impl Light {
             Self::Point { position, intensity } => from_point(*position, p, |_| *intensity),
             Self::Spot { spot, intensity } => from_point(spot.position, p, |w| *intensity * spot.falloff(w)),
             Self::Luminaire(luminaire) => from_point(luminaire.position, p, |w| luminaire.intensity(w)),
-            Self::Projector(projector) => from_point(projector.position, p, |w| projector.intensity(w)),
+            Self::Projector(projector) => from_point(projector.position(), p, |w| projector.intensity(w)),
         }
     }
 }
@@ -185,15 +187,4 @@ impl Lights {
         }
         l
     }
-}
-
-/// The largest number below 1.
-const BELOW_ONE: f32 = 1.0 - f32::EPSILON / 2.0;
-
-/// The weight of a strategy of density `pdf` beside another.
-#[inline]
-pub(crate) fn power_heuristic(pdf: f32, other: f32) -> f32 {
-    // The quotient stays in range where squares would not.
-    let ratio = other / pdf;
-    if ratio.is_finite() { 1.0 / (1.0 + ratio * ratio) } else { 0.0 }
 }

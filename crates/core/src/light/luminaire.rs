@@ -19,8 +19,8 @@ use serde::{Deserialize, Serialize};
 use crate::array::array;
 use crate::color::{Rgb, Spectrum};
 use crate::light::ies::IesProfile;
-use crate::light::point::one;
 use crate::light::select::LightBounds;
+use crate::light::{one, unscaled};
 use crate::validate::Checker;
 
 /// A lamp without size that shines as a photometric file says.
@@ -55,10 +55,6 @@ pub struct IesLight {
 
 fn down() -> [f32; 3] {
     [0.0, -1.0, 0.0]
-}
-
-fn unscaled() -> f32 {
-    1.0
 }
 
 /// Luminous efficacy of light that is even from 370 to 730 nm, lm / W.

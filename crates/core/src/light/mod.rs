@@ -19,7 +19,7 @@ use glam::Vec3;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
-use crate::color::Spectrum;
+use crate::color::{Rgb, Spectrum};
 use crate::validate::Checker;
 
 pub use directional::DirectionalLight;
@@ -35,7 +35,7 @@ pub(crate) use area::AreaLight;
 pub(crate) use directional::Disk;
 #[cfg(any(test, feature = "testing"))]
 pub(crate) use environment::Environment;
-pub(crate) use lights::{Light, Lights, Scattered, power_heuristic};
+pub(crate) use lights::{Light, Lights, Scattered};
 
 /// Lights that are no shapes: `[[light.KIND]]` adds one.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize, JsonSchema)]
@@ -80,6 +80,16 @@ impl LightsDesc {
     pub(crate) fn far(&self) -> impl Iterator<Item = Disk> {
         self.directional.iter().map(DirectionalLight::compile)
     }
+}
+
+/// What a light has if nothing is said: white of strength 1.
+fn one() -> Rgb {
+    Rgb::grey(1.0)
+}
+
+/// A factor that nothing is said about.
+fn unscaled() -> f32 {
+    1.0
 }
 
 /// A direction from which light arrives at a point.

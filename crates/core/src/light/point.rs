@@ -12,6 +12,7 @@ use serde::{Deserialize, Serialize};
 
 use crate::array::array;
 use crate::color::Rgb;
+use crate::light::one;
 use crate::validate::Checker;
 
 /// A lamp without size. Nothing that is seen: only what it lights is.
@@ -24,10 +25,6 @@ pub struct PointLight {
     /// Radiant intensity, W / sr, not negative.
     #[serde(default = "one")]
     pub intensity: Rgb,
-}
-
-pub(super) fn one() -> Rgb {
-    Rgb::grey(1.0)
 }
 
 impl PointLight {

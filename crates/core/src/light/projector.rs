@@ -15,7 +15,7 @@
 
 use std::sync::Arc;
 
-use glam::{DVec3, Vec2, Vec3};
+use glam::{Vec2, Vec3};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
@@ -23,6 +23,8 @@ use crate::array::array;
 use crate::color::{Rgb, Spectrum};
 use crate::film::Image;
 use crate::light::select::LightBounds;
+use crate::light::unscaled;
+use crate::math::Pose;
 use crate::validate::Checker;
 
 /// A lamp without size that throws a picture.
@@ -61,21 +63,10 @@ fn fov() -> f32 {
     40.0
 }
 
-fn unscaled() -> f32 {
-    1.0
-}
-
 impl ProjectorLight {
     pub(super) fn check(&self, c: &mut Checker) {
-        c.finite("position", &self.position);
-        c.finite("look_at", &self.look_at);
-        c.apart("look_at", self.position, "position", self.look_at);
-        c.nonzero("up", self.up);
-        let [from, at, up] = [self.position, self.look_at, self.up].map(|v| Vec3::from(v).as_dvec3());
-        let across = (at - from).normalize_or_zero().cross(up.normalize_or_zero());
-        if from != at && from.is_finite() && at.is_finite() && up != DVec3::ZERO && across.length() < 1e-6 {
-            c.problem("up", "`up` points along the line of sight", Some("try up = [0, 0, 1]".to_owned()));
-        }
+        c.line_of_sight("position", self.position, self.look_at, "it points");
+        c.up(self.up, self.position, self.look_at);
         c.in_range("fov", self.fov, 0.1, 170.0);
         c.in_range("scale", self.scale, 0.0, 1e9);
         if self.image.is_none() {
@@ -91,24 +82,16 @@ impl ProjectorLight {
     /// None if the picture is not loaded, which the check has found.
     pub(super) fn compile(&self) -> Option<Projector> {
         let image = self.image.clone()?;
-        let [from, at, up] = [self.position, self.look_at, self.up].map(|v| Vec3::from(v).as_dvec3());
-        let axis = (at - from).normalize();
-        let right = axis.cross(up.normalize()).normalize();
-        let down = axis.cross(right);
         let half_width = libm::tanf(0.5 * self.fov.to_radians());
         let half = Vec2::new(half_width, half_width * image.height() as f32 / image.width() as f32);
-        let [right, down, axis] = [right, down, axis].map(|v| v.as_vec3());
-        Some(Projector { position: self.position.into(), right, down, axis, half, scale: self.scale, image })
+        Some(Projector { pose: Pose::new(self.position, self.look_at, self.up), half, scale: self.scale, image })
     }
 }
 
 /// A projector, ready to shine.
 #[derive(Clone, Debug)]
 pub(crate) struct Projector {
-    pub(super) position: Vec3,
-    right: Vec3,
-    down: Vec3,
-    axis: Vec3,
+    pose: Pose,
     /// Half the picture's size at distance 1.
     half: Vec2,
     scale: f32,
@@ -116,14 +99,18 @@ pub(crate) struct Projector {
 }
 
 impl Projector {
+    pub(super) fn position(&self) -> Vec3 {
+        self.pose.eye
+    }
+
     /// Intensity along the unit direction `w` away from it, W / sr.
     #[inline]
     pub(super) fn intensity(&self, w: Vec3) -> Spectrum {
-        let z = w.dot(self.axis);
-        if z <= 0.0 {
+        let local = self.pose.direction_to_local(w);
+        if local.z <= 0.0 {
             return Spectrum::BLACK;
         }
-        let place = Vec2::new(w.dot(self.right), w.dot(self.down)) / (z * self.half);
+        let place = local.truncate() / (local.z * self.half);
         let is_inside = place.x.abs() <= 1.0 && place.y.abs() <= 1.0;
         if is_inside { self.bilinear(0.5 * place + 0.5) * self.scale } else { Spectrum::BLACK }
     }
@@ -143,10 +130,10 @@ impl Projector {
     }
 
     pub(super) fn bounds(&self) -> LightBounds {
-        let bounds = LightBounds::sphere(self.position, 0.0, self.power());
+        let bounds = LightBounds::sphere(self.pose.eye, 0.0, self.power());
         // To the picture's corner, and a little beyond, as the edge itself still shines.
         let cos_theta_e = 0.9999 / (1.0 + self.half.length_squared()).sqrt();
-        LightBounds { axis: self.axis, cos_theta_o: 1.0, cos_theta_e, ..bounds }
+        LightBounds { axis: self.pose.forward, cos_theta_o: 1.0, cos_theta_e, ..bounds }
     }
 
     /// Of luminance, W: the sum over pixels of intensity and solid angle, cos³ θ times the area at distance 1.
@@ -199,12 +186,12 @@ mod tests {
         let projector = light(numbered(4, 2)).compile().unwrap();
         for (x, y) in (0..2).flat_map(|y| (0..4).map(move |x| (x, y))) {
             let on_plane = Vec3::new(x as f32 - 1.5, 0.5 - y as f32, 0.0);
-            let [r, g, _] = projector.intensity((on_plane - projector.position).normalize()).to_rgb();
+            let [r, g, _] = projector.intensity((on_plane - projector.position()).normalize()).to_rgb();
             let expected = (2.0 * (x as f32 + 1.0), 2.0 * (y as f32 + 1.0));
             assert!((r - expected.0).abs() < 1e-4 && (g - expected.1).abs() < 1e-4, "{x}, {y}: {r} {g}");
         }
         for (x, y, is_lit) in [(1.99, 0.0, true), (2.01, 0.0, false), (0.0, -0.99, true), (0.0, -1.01, false)] {
-            let w = (Vec3::new(x, y, 0.0) - projector.position).normalize();
+            let w = (Vec3::new(x, y, 0.0) - projector.position()).normalize();
             assert_eq!(!projector.intensity(w).is_black(), is_lit, "{x}, {y}");
         }
         assert!(projector.intensity(Vec3::Z).is_black());
@@ -237,7 +224,7 @@ mod tests {
             let projector = ProjectorLight { fov, ..light(image) }.compile().unwrap();
             let bounds = projector.bounds();
             assert!(bounds.power > 0.0 && bounds.power.is_finite() && (0.0..1.0).contains(&bounds.cos_theta_e));
-            assert!(!projector.intensity(projector.axis).is_black());
+            assert!(!projector.intensity(projector.pose.forward).is_black());
             for i in 0..1000 {
                 let w = uniform_sphere(Independent::new(3, glam::UVec2::ZERO, i).get_2d());
                 assert!(projector.intensity(w).to_rgb().iter().all(|c| c.is_finite()));

@@ -20,7 +20,7 @@ use serde::{Deserialize, Serialize};
 
 use crate::array::array;
 use crate::color::Rgb;
-use crate::light::point::one;
+use crate::light::one;
 use crate::light::select::LightBounds;
 use crate::validate::Checker;
 
@@ -52,9 +52,7 @@ fn thirty() -> f32 {
 
 impl SpotLight {
     pub(super) fn check(&self, c: &mut Checker) {
-        c.finite("position", &self.position);
-        c.finite("look_at", &self.look_at);
-        c.apart("look_at", self.position, "position", self.look_at);
+        c.line_of_sight("position", self.position, self.look_at, "it points");
         c.radiance("intensity", self.intensity);
         c.in_range("outer", self.outer, 0.01, 180.0);
         if let Some(inner) = self.inner {

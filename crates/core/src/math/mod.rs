@@ -1,11 +1,15 @@
 //! Small mathematics that several rooms share.
 
 mod frame;
+mod hash;
 mod offset;
+mod pose;
 mod reflect;
 mod trig;
 
 pub use frame::Frame;
+pub(crate) use hash::{BELOW_ONE, GAMMA, mix, unit};
 pub use offset::offset_ray_origin;
+pub(crate) use pose::Pose;
 pub use reflect::{reflect, reflect_at, refract};
 pub use trig::{sin_cos_eighth, sin_cos_turns};

@@ -5,7 +5,7 @@
 
 use glam::{UVec2, Vec2};
 
-use crate::sampler::hash::{GAMMA, mix, unit};
+use crate::math::{GAMMA, mix, unit};
 
 /// Uniform random numbers, independent of each other.
 #[derive(Clone, Debug)]

@@ -3,7 +3,6 @@
 //! Every number is a pure function of (seed, pixel, sample, dimension): no state is shared between pixels or
 //! threads, so any part of a picture can be computed anywhere, in any order, with the same result.
 
-mod hash;
 mod independent;
 mod sobol;
 

@@ -15,7 +15,7 @@ use std::array;
 
 use glam::{UVec2, Vec2};
 
-use crate::sampler::hash::{GAMMA, mix, unit};
+use crate::math::{GAMMA, mix, unit};
 
 /// Samples come in blocks of this many, within which pixels change the order.
 const BLOCK: u32 = 16;

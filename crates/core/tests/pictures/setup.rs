@@ -3,36 +3,23 @@
 use std::num::NonZeroUsize;
 
 use eyebeam_core::camera::CameraDesc;
-use eyebeam_core::color::Rgb;
-use eyebeam_core::desc::SceneDesc;
-use eyebeam_core::film::{BoxFilter, Film, FilmOptions, FilterDesc, Tile};
+use eyebeam_core::desc::{RenderDesc, SceneDesc};
+use eyebeam_core::film::{Film, Tile};
 use eyebeam_core::integrator::IntegratorKind;
-use eyebeam_core::light::{Constant, EnvironmentDesc, NoLight};
-use eyebeam_core::material::{Emissive, Lambertian, MaterialDesc};
+use eyebeam_core::light::EnvironmentDesc;
+use eyebeam_core::material::MaterialDesc;
 use eyebeam_core::render::{Monitor, Render, Settings};
 use eyebeam_core::sampler::SamplerKind;
 use eyebeam_core::scene::Scene;
 use eyebeam_core::shape::{MeshDesc, QuadDesc, SphereDesc};
 use eyebeam_core::testing::z_test;
 
-pub(crate) const DARK: EnvironmentDesc = EnvironmentDesc::None(NoLight {});
-pub(crate) const BOX: FilterDesc = FilterDesc::Box(BoxFilter { radius: 0.5 });
-pub(crate) const WHITE: EnvironmentDesc = EnvironmentDesc::Constant(Constant { radiance: Rgb([1.0; 3]) });
+pub(crate) use eyebeam_core::testing::scenes::build::{DARK, WHITE, lamp, look, matte};
 
 /// A square picture by the plainest means: what theory is about.
 pub(crate) fn settings(side: u32, spp: u32, max_depth: u32) -> Settings {
-    Settings {
-        width: side,
-        height: side,
-        spp,
-        max_depth,
-        seed: 1,
-        integrator: IntegratorKind::Weekend,
-        sampler: SamplerKind::Independent,
-        filter: BOX,
-        film: FilmOptions::default(),
-        threads: NonZeroUsize::new(2).unwrap(),
-    }
+    let plain = RenderDesc { width: side, height: side, spp, max_depth, seed: 1, ..RenderDesc::default() }.plain();
+    Settings { threads: NonZeroUsize::new(2).unwrap(), ..Settings::from(&plain) }
 }
 
 /// The same picture by every integrator with every sampler.
@@ -45,9 +32,7 @@ pub(crate) fn every_way(settings: &Settings) -> Vec<(String, Settings)> {
 }
 
 pub(crate) fn finish(mut render: Render) -> Film {
-    while !render.is_done() {
-        render.step(&Monitor::default());
-    }
+    render.finish(&Monitor::default());
     let film = render.film().clone();
     assert_eq!(film.sample_counts().dropped, 0);
     film
@@ -77,19 +62,6 @@ pub(crate) fn standard_errors(film: &Film, width: u32) -> impl Fn(u32, u32) -> f
 /// A scene with the one material `it`.
 pub(crate) fn scene(environment: EnvironmentDesc, it: MaterialDesc, camera: CameraDesc) -> SceneDesc {
     SceneDesc { environment, camera, material: [("it".to_owned(), it)].into(), ..SceneDesc::default() }
-}
-
-pub(crate) fn look(from: [f32; 3], at: [f32; 3], vfov: f32) -> CameraDesc {
-    let up = if from[0] == at[0] && from[2] == at[2] { [0.0, 0.0, 1.0] } else { [0.0, 1.0, 0.0] };
-    CameraDesc { look_from: from, look_at: at, up, vfov: Some(vfov), ..CameraDesc::default() }
-}
-
-pub(crate) fn matte(albedo: f32) -> MaterialDesc {
-    MaterialDesc::Lambertian(Lambertian { albedo: Rgb::grey(albedo) })
-}
-
-pub(crate) fn lamp(radiance: f32) -> MaterialDesc {
-    MaterialDesc::Emissive(Emissive { radiance: Rgb::grey(radiance), ..Emissive::default() })
 }
 
 pub(crate) fn sphere(center: [f32; 3], radius: f32) -> SphereDesc {

@@ -99,9 +99,7 @@ fn refused(mut problems: Vec<Problem>) -> Error {
 /// Renders to the end, watched by `monitor`.
 fn finished<'s>(scene: &'s Scene, settings: Settings, monitor: &Monitor) -> Render<'s> {
     let mut render = Render::new(scene, settings);
-    while !render.is_done() {
-        render.step(monitor);
-    }
+    render.finish(monitor);
     render
 }
 

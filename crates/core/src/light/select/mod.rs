@@ -22,6 +22,8 @@ use discrete::Discrete;
 use emitter::{Cluster, Emitter};
 use tree::Tree;
 
+use crate::math::{BELOW_ONE, mix};
+
 /// How one of the lights is chosen.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "kebab-case")]
@@ -116,17 +118,13 @@ impl LightSelector {
     }
 }
 
-const BELOW_ONE: f32 = 1.0 - 0.5 * f32::EPSILON;
-
 /// `uc` in double precision. Its 24 bits are too few to choose among millions of lights and leave anything over, so
 /// the bits below are made up, from it and the point.
 #[inline]
 fn refine(uc: f32, p: Vec3) -> f64 {
     const SCALE: f64 = 1.0 / (1_u64 << 52) as f64;
     let [a, b, c, d] = [uc, p.x, p.y, p.z].map(|x| u64::from(x.to_bits()));
-    let mut hash = (a << 32 | b).wrapping_mul(0x9e37_79b9_7f4a_7c15);
-    hash = (hash ^ hash >> 32 ^ (c << 32 | d)).wrapping_mul(0xbf58_476d_1ce4_e5b9);
-    hash = (hash ^ hash >> 32).wrapping_mul(0x94d0_49bb_1331_11eb);
+    let hash = mix(mix(a << 32 | b) ^ (c << 32 | d));
     f64::from(uc) + (hash >> 36) as f64 * SCALE
 }
 

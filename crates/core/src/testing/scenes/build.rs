@@ -7,16 +7,23 @@ use crate::light::{Constant, EnvironmentDesc, NoLight};
 use crate::material::{Emissive, Lambertian, MaterialDesc, Metal};
 use crate::shape::{QuadDesc, SphereDesc};
 
-pub(super) const DARK: EnvironmentDesc = EnvironmentDesc::None(NoLight {});
-pub(super) const WHITE: EnvironmentDesc = EnvironmentDesc::Constant(Constant { radiance: Rgb([1.0; 3]) });
+/// No light from outside.
+pub const DARK: EnvironmentDesc = EnvironmentDesc::None(NoLight {});
+/// The same light from everywhere.
+pub const WHITE: EnvironmentDesc = EnvironmentDesc::Constant(Constant { radiance: Rgb([1.0; 3]) });
 
 /// Share of light that the floor of [`lit_floor`] scatters.
 pub(super) const ALBEDO: f32 = 0.8;
 
-/// A camera so narrow that all pixels look at the same point.
-pub(super) fn look(from: [f32; 3], at: [f32; 3]) -> CameraDesc {
+/// An eye with a field of view of so many degrees; y is up, or z if it looks along y.
+pub fn look(from: [f32; 3], at: [f32; 3], vfov: f32) -> CameraDesc {
     let up = if from[0] == at[0] && from[2] == at[2] { [0.0, 0.0, 1.0] } else { [0.0, 1.0, 0.0] };
-    CameraDesc { look_from: from, look_at: at, up, vfov: Some(0.002), ..CameraDesc::default() }
+    CameraDesc { look_from: from, look_at: at, up, vfov: Some(vfov), ..CameraDesc::default() }
+}
+
+/// So narrow that all pixels look at the same point.
+pub(super) fn stare(from: [f32; 3], at: [f32; 3]) -> CameraDesc {
+    look(from, at, 0.002)
 }
 
 /// Nothing but surroundings, and an eye.
@@ -26,7 +33,7 @@ pub(super) fn empty(environment: EnvironmentDesc, camera: CameraDesc) -> SceneDe
 
 /// A matte floor around the origin, which is looked at from the side.
 pub(super) fn lit_floor(environment: EnvironmentDesc) -> SceneDesc {
-    let mut desc = empty(environment, look([3.0, 0.4, 0.0], [0.0; 3]));
+    let mut desc = empty(environment, stare([3.0, 0.4, 0.0], [0.0; 3]));
     add_quad(&mut desc, floor(0.0), "floor", matte(ALBEDO));
     desc
 }
@@ -51,7 +58,8 @@ pub(super) fn add_sphere(desc: &mut SceneDesc, center: [f32; 3], radius: f32, na
     desc.shape.sphere.push(SphereDesc { center, radius, material: Some(name.to_owned()) });
 }
 
-pub(super) fn matte(albedo: f32) -> MaterialDesc {
+/// Matte, of a grey albedo.
+pub fn matte(albedo: f32) -> MaterialDesc {
     MaterialDesc::Lambertian(Lambertian { albedo: Rgb::grey(albedo) })
 }
 
@@ -59,6 +67,7 @@ pub(super) fn metal(albedo: f32, roughness: f32) -> MaterialDesc {
     MaterialDesc::Metal(Metal { albedo: Rgb::grey(albedo), roughness })
 }
 
-pub(super) fn lamp(radiance: f32) -> MaterialDesc {
+/// A lamp that shines on the side of its normal.
+pub fn lamp(radiance: f32) -> MaterialDesc {
     MaterialDesc::Emissive(Emissive { radiance: Rgb::grey(radiance), ..Emissive::default() })
 }

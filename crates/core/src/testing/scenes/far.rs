@@ -39,7 +39,7 @@ fn sun(angle: f32) -> KnownScene {
 
 /// A disk of half angle α that brings the irradiance E has the radiance E / (π sin² α).
 fn in_the_sun() -> KnownScene {
-    let mut desc = empty(DARK, look([0.0; 3], TO_SUN));
+    let mut desc = empty(DARK, stare([0.0; 3], TO_SUN));
     desc.light.directional.push(sunlight(0.53));
     let sin = (0.5 * 0.53_f64).to_radians().sin();
     KnownScene::new("disk of the sun", desc, 1, 2.0 / (PI * sin * sin))

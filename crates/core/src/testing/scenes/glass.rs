@@ -16,7 +16,7 @@ fn glass(eta: f32) -> MaterialDesc {
 }
 
 fn ball(eta: f32) -> KnownScene {
-    let mut desc = empty(WHITE, look([0.0, 0.0, 3.0], [0.5, 0.6, 0.0]));
+    let mut desc = empty(WHITE, stare([0.0, 0.0, 3.0], [0.5, 0.6, 0.0]));
     add_sphere(&mut desc, [0.0; 3], 1.0, "glass", glass(eta));
     KnownScene::new(format!("white furnace, glass of index {eta}"), desc, 10_000, 1.0)
 }
@@ -29,7 +29,7 @@ fn hollow_ball() -> KnownScene {
 
 /// Under water the sky is brighter by eta²: the same light comes from a smaller solid angle.
 fn inside(eta: f32) -> KnownScene {
-    let mut desc = empty(WHITE, look([0.1, 0.0, 0.0], [0.0, 0.4, -1.0]));
+    let mut desc = empty(WHITE, stare([0.1, 0.0, 0.0], [0.0, 0.4, -1.0]));
     add_sphere(&mut desc, [0.0; 3], 1.0, "glass", glass(eta));
     KnownScene::new(format!("inside glass of index {eta}"), desc, 1000, f64::from(eta * eta))
 }
@@ -40,7 +40,7 @@ fn slab(degrees: f64) -> KnownScene {
     let (sin, cos) = degrees.to_radians().sin_cos();
     let sky = Gradient { bottom: Rgb::grey(0.0), top: Rgb::grey(1.0) };
     let mut desc =
-        empty(EnvironmentDesc::Gradient(sky), look([0.3 + 2.0 * sin as f32, 2.0 * cos as f32, 0.1], [0.3, 0.0, 0.1]));
+        empty(EnvironmentDesc::Gradient(sky), stare([0.3 + 2.0 * sin as f32, 2.0 * cos as f32, 0.1], [0.3, 0.0, 0.1]));
     let [[x, y, z], u, v] = floor(-0.2);
     add_quad(&mut desc, floor(0.0), "glass", glass(1.5));
     add_quad(&mut desc, [[x, y, -z], u, v.map(|x| -x)], "glass", glass(1.5));

@@ -1,6 +1,6 @@
 //! Scenes whose picture is known beforehand: every pixel looks at the same point and has the same luminance.
 
-mod build;
+pub mod build;
 mod far;
 mod glass;
 mod lamps;
@@ -10,9 +10,9 @@ use std::num::NonZeroUsize;
 use std::ops::Range;
 
 use crate::color::luminance;
-use crate::desc::SceneDesc;
-use crate::film::{BoxFilter, FilmOptions, FilterDesc, PixelSum, Tile};
-use crate::integrator::{Integrator, IntegratorKind};
+use crate::desc::{RenderDesc, SceneDesc};
+use crate::film::{PixelSum, Tile};
+use crate::integrator::Integrator;
 use crate::render::{Monitor, Render, Settings};
 use crate::sampler::SamplerKind;
 use crate::scene::Scene;
@@ -66,22 +66,11 @@ impl KnownScene {
         let scene = Scene::build(&self.desc).map_err(|problems| format!("{problems:?}"))?;
         let mut pixels = Vec::new();
         for seed in seeds {
-            let settings = Settings {
-                width: Self::SIDE,
-                height: Self::SIDE,
-                spp,
-                max_depth: self.max_depth,
-                seed,
-                integrator: IntegratorKind::default(),
-                sampler,
-                filter: FilterDesc::Box(BoxFilter::default()),
-                film: FilmOptions::default(),
-                threads: NonZeroUsize::MIN,
-            };
+            let (width, height, max_depth) = (Self::SIDE, Self::SIDE, self.max_depth);
+            let plain = RenderDesc { width, height, spp, max_depth, seed, ..RenderDesc::default() }.plain();
+            let settings = Settings { sampler, threads: NonZeroUsize::MIN, ..Settings::from(&plain) };
             let mut render = Render::with_integrator(&scene, settings, integrator());
-            while !render.is_done() {
-                render.step(&Monitor::default());
-            }
+            render.finish(&Monitor::default());
             if render.film().sample_counts().dropped > 0 {
                 return Err("samples are no numbers".to_owned());
             }

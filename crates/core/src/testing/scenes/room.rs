@@ -16,7 +16,7 @@ pub(super) fn scenes() -> Vec<KnownScene> {
 fn glowing_ball(depth: u32) -> KnownScene {
     let (e, a) = (3.0, 0.6);
     let emissive = Emissive { radiance: Rgb::grey(e), albedo: Rgb::grey(a), two_sided: true };
-    let mut desc = empty(DARK, look([0.1, 0.2, 0.3], [1.0, 0.0, 0.0]));
+    let mut desc = empty(DARK, stare([0.1, 0.2, 0.3], [1.0, 0.0, 0.0]));
     add_sphere(&mut desc, [0.0; 3], 1.0, "shell", MaterialDesc::Emissive(emissive));
     let (e, a) = (f64::from(e), f64::from(a));
     KnownScene::new(format!("glowing ball, {depth} edges"), desc, depth, e * (1.0 - a.powi(depth as i32)) / (1.0 - a))
@@ -24,21 +24,21 @@ fn glowing_ball(depth: u32) -> KnownScene {
 
 /// In the white furnace what loses no light cannot be told from the background.
 fn white_ball(name: &str, material: MaterialDesc) -> KnownScene {
-    let mut desc = empty(WHITE, look([0.3, 0.0, 3.0], [0.3, 0.4, 0.0]));
+    let mut desc = empty(WHITE, stare([0.3, 0.0, 3.0], [0.3, 0.4, 0.0]));
     add_sphere(&mut desc, [0.0; 3], 1.0, "ball", material);
     KnownScene::new(format!("white furnace, {name}"), desc, 50, 1.0)
 }
 
 /// Under an even sky a convex matte thing has its albedo.
 fn grey_ball() -> KnownScene {
-    let mut desc = empty(WHITE, look([0.0, 0.0, 3.0], [0.3, 0.4, 0.0]));
+    let mut desc = empty(WHITE, stare([0.0, 0.0, 3.0], [0.3, 0.4, 0.0]));
     add_sphere(&mut desc, [0.0; 3], 1.0, "ball", matte(0.35));
     KnownScene::new("matte ball under an even sky", desc, 2, f64::from(0.35_f32))
 }
 
 /// Three mirrors at right angles send a ray back after three reflections.
 fn mirror_corner() -> KnownScene {
-    let mut desc = empty(WHITE, look([2.0, 2.2, 2.5], [0.5, 0.4, 0.0]));
+    let mut desc = empty(WHITE, stare([2.0, 2.2, 2.5], [0.5, 0.4, 0.0]));
     for axis in 0..3 {
         let edge = |axis: usize| std::array::from_fn(|i| if i == axis % 3 { 10.0 } else { 0.0 });
         add_quad(&mut desc, [[0.0; 3], edge(axis + 1), edge(axis + 2)], "mirror", metal(0.7, 0.0));
@@ -54,7 +54,7 @@ fn first_edge() -> KnownScene {
 /// Metal of roughness r loses the part of the ball of radius r around the tip of the mirror direction that is below the
 /// surface.
 fn rough_metal(roughness: f32, height: f32) -> KnownScene {
-    let mut desc = empty(WHITE, look([1.0, height, 0.0], [0.0; 3]));
+    let mut desc = empty(WHITE, stare([1.0, height, 0.0], [0.0; 3]));
     add_quad(&mut desc, floor(0.0), "metal", metal(1.0, roughness));
     let (r, cos) = (f64::from(roughness), f64::from(height) / f64::from(height).hypot(1.0));
     let cap = (r - cos).max(0.0);

@@ -92,9 +92,7 @@ fn render(i: &dyn Implementation, desc: &SceneDesc, settings: Settings) -> Resul
     let scene = Scene::build(desc).map_err(|problems| format!("{problems:?}"))?;
     let integrator = i.integrator(settings.integrator, settings.max_depth, desc);
     let mut render = Render::with_integrator(&scene, settings, integrator);
-    while !render.is_done() {
-        render.step(&Monitor::default());
-    }
+    render.finish(&Monitor::default());
     Ok(render.film().clone())
 }
 

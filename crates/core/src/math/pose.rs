@@ -1,23 +1,21 @@
-//! Where a camera stands and how it is turned.
+//! Where something stands that looks somewhere, and how it is turned.
 
 use glam::{DVec3, Vec3};
-
-use crate::camera::CameraDesc;
 
 /// The eye and three unit vectors at right angles: the picture's right, its bottom, and the direction of view. Local
 /// coordinates count along them, from the eye.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct Pose {
-    pub(super) eye: Vec3,
+pub(crate) struct Pose {
+    pub(crate) eye: Vec3,
     right: Vec3,
     down: Vec3,
-    pub(super) forward: Vec3,
+    pub(crate) forward: Vec3,
 }
 
 impl Pose {
     /// Right angles hold in double precision, even where `up` points almost along the line of sight.
-    pub(super) fn new(desc: &CameraDesc) -> Self {
-        let [eye, at, up] = [desc.look_from, desc.look_at, desc.up].map(|v| Vec3::from(v).as_dvec3());
+    pub(crate) fn new(eye: [f32; 3], at: [f32; 3], up: [f32; 3]) -> Self {
+        let [eye, at, up] = [eye, at, up].map(|v| Vec3::from(v).as_dvec3());
         let forward = (at - eye).normalize();
         let right = forward.cross(up.normalize()).normalize();
         let down = forward.cross(right);
@@ -27,15 +25,20 @@ impl Pose {
 
     /// A local direction in the world.
     #[inline]
-    pub(super) fn to_world(self, v: Vec3) -> Vec3 {
+    pub(crate) fn to_world(self, v: Vec3) -> Vec3 {
         v.x * self.right + v.y * self.down + v.z * self.forward
     }
 
     /// A point of the world in local coordinates.
     #[inline]
-    pub(super) fn to_local(self, p: Vec3) -> Vec3 {
-        let v = p - self.eye;
-        Vec3::new(v.dot(self.right), v.dot(self.down), v.dot(self.forward))
+    pub(crate) fn to_local(self, p: Vec3) -> Vec3 {
+        self.direction_to_local(p - self.eye)
+    }
+
+    /// A direction of the world in local coordinates.
+    #[inline]
+    pub(crate) fn direction_to_local(self, w: Vec3) -> Vec3 {
+        Vec3::new(w.dot(self.right), w.dot(self.down), w.dot(self.forward))
     }
 }
 
@@ -48,7 +51,7 @@ mod tests {
     fn is_orthonormal() {
         for up in [[0.0, 1.0, 0.0], [1e-5, 0.0, 1.0], [1e-30, 2e-30, 0.0], [3e14, 1e15, 0.0]] {
             for look_at in [[1.0, 2.0, 9.0], [1e-30, 2e-30, 3e-30], [1e15, -1e15, 1e15], [0.0, 0.0, -1.0]] {
-                let pose = Pose::new(&CameraDesc { look_from: [0.0; 3], look_at, up, ..CameraDesc::default() });
+                let pose = Pose::new([0.0; 3], look_at, up);
                 let Pose { right, down, forward, .. } = pose;
                 assert!((right.cross(down) - forward).length() < 1e-6, "{up:?} {look_at:?}: {pose:?}");
                 assert!([right, down, forward].iter().all(|v| (v.length() - 1.0).abs() < 1e-6));
