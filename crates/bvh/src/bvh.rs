@@ -8,7 +8,7 @@ use crate::error::BuildError;
 use crate::geometry::Geometry;
 use crate::instance::Instance;
 use crate::ray::{Hit, Ray};
-use crate::search::{Everything, Where};
+use crate::search::{Everything, Slot, Where};
 use crate::shape::Surface;
 use crate::simd::{Isa, Processor};
 use crate::stats::Stats;
@@ -126,6 +126,22 @@ impl Bvh {
         // A hit is never of an instance itself.
         let surface = innermost.tree.primitive(kind, block, lane).surface(time);
         surface.unwrap_or(Surface::Flat { corner: DVec3::ZERO, edges: [DVec3::ZERO; 2] })
+    }
+
+    /// Where each primitive is kept, by its index, for [`Ray::apart`]: [`Slot::NONE`] for what cannot be hit. Of one that is kept
+    /// in several places, any.
+    pub fn slots(&self) -> Vec<Slot> {
+        let mut slots = Vec::new();
+        for (kind, blocks) in self.tree.blocks() {
+            for (block, lane) in (0..blocks).flat_map(|block| (0..kind.lanes()).map(move |lane| (block, lane))) {
+                if self.tree.is_used(kind, block, lane) {
+                    let id = self.tree.id(kind, block, lane) as usize;
+                    slots.resize(slots.len().max(id + 1), Slot::NONE);
+                    slots[id] = Slot::new(kind, block, lane);
+                }
+            }
+        }
+        slots
     }
 
     /// From the space of the primitive that was hit to that of the ray, at its `time`: the identity outside instances. For

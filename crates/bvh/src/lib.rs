@@ -173,6 +173,7 @@ pub use error::BuildError;
 pub use geometry::{Geometry, Mesh};
 pub use instance::{Affine, Instance};
 pub use ray::{Hit, Ray};
+pub use search::Slot;
 pub use shape::{MovingTriangle, Primitive, Quad, Sphere, Surface, Triangle};
 pub use simd::Isa;
 pub use stats::Stats;

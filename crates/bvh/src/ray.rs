@@ -20,12 +20,15 @@ pub struct Ray {
     /// When it is traced, in the time of the motion keys: usually 0 at the first, 1 at the last. 0 by default. Of no
     /// importance where nothing moves.
     pub time: f32,
+    /// Primitives that the ray is known not to meet, so that they need not be tested: the flat one that it begins on, say, and
+    /// the one that it goes to and ends before. None by default. Should it meet one nevertheless, that is found or is not.
+    pub apart: [Slot; 2],
 }
 
 impl Ray {
     /// A ray of infinite length, at time 0.
     pub fn new(o: Vec3, d: Vec3) -> Self {
-        Self { o, d, t_max: f32::INFINITY, time: 0.0 }
+        Self { o, d, t_max: f32::INFINITY, time: 0.0, apart: [Slot::NONE; 2] }
     }
 }
 
@@ -71,6 +74,12 @@ impl Hit {
 
     /// The index of no primitive.
     pub(crate) const NO_PRIM: u32 = u32::MAX;
+
+    /// What was hit, for [`Ray::apart`]; [`Slot::NONE`] within an instance.
+    #[inline]
+    pub fn slot(&self) -> Slot {
+        if self.instances[0] == Self::NO_INSTANCE { self.slot } else { Slot::NONE }
+    }
 
     /// Where a search up to `t_max` begins; loses against every hit at a finite distance.
     #[inline(always)]

@@ -6,13 +6,13 @@
 use crate::ray::{Hit, PrimHit, Ray, RayF64};
 use crate::wide::{Kind, Tree};
 
-/// Where the tree keeps a primitive.
+/// Where a tree keeps a primitive. It is of use only with that tree, until it is refitted.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(crate) struct Slot(u32);
+pub struct Slot(u32);
 
 impl Slot {
     /// Nowhere.
-    pub(crate) const NONE: Self = Self(u32::MAX);
+    pub const NONE: Self = Self(u32::MAX);
 
     const KIND_SHIFT: u32 = 29;
     const LANE_BITS: u32 = 3;
@@ -26,6 +26,13 @@ impl Slot {
     pub(crate) fn unpack(self) -> (Kind, usize, usize) {
         let block = self.0 & ((1 << Self::KIND_SHIFT) - 1);
         (Kind::from_bits(self.0 >> Self::KIND_SHIFT), (block >> Self::LANE_BITS) as usize, self.0 as usize & 7)
+    }
+
+    /// Bit i: this is lane i of the block.
+    #[inline(always)]
+    fn lane_of(self, kind: Kind, block: usize) -> u32 {
+        let lane = self.0 ^ Self::new(kind, block, 0).0;
+        if lane < 1 << Self::LANE_BITS { 1 << lane } else { 0 }
     }
 }
 
@@ -75,6 +82,7 @@ pub(crate) struct Search {
     /// No hit is nearer: where the ray enters the innermost instance.
     floor: f32,
     instances: [u32; Hit::MAX_NESTING],
+    apart: [Slot; 2],
 }
 
 impl Search {
@@ -89,6 +97,7 @@ impl Search {
             pending_far: nearest.t,
             floor: 0.0,
             instances: nearest.instances,
+            apart: ray.apart,
         }
     }
 
@@ -104,6 +113,13 @@ impl Search {
         /// Distances below this may be rounded to 0, where there is no hit.
         const LEAST: f32 = 1e-30;
         [self.floor.max(LEAST), self.pending_far]
+    }
+
+    /// Bit i: lane i of a block need not be tested.
+    #[inline(always)]
+    pub(crate) fn apart(&self, kind: Kind, block: usize) -> u32 {
+        let [a, b] = self.apart;
+        a.lane_of(kind, block) | b.lane_of(kind, block)
     }
 
     #[inline(always)]
@@ -174,7 +190,7 @@ impl Search {
     /// instances are too deep within each other. Nothing must be pending.
     pub(crate) fn enter(&self, ray: RayF64, instance: u32, entry: f32) -> Option<Self> {
         let depth = self.instances.iter().position(|&i| i == Hit::NO_INSTANCE)?;
-        let mut inner = Self { ray, floor: self.floor.max(entry), ..self.clone() };
+        let mut inner = Self { ray, floor: self.floor.max(entry), apart: [Slot::NONE; 2], ..self.clone() };
         inner.instances[depth] = instance;
         Some(inner)
     }

@@ -1,6 +1,6 @@
 //! A ray's meeting with a surface.
 
-use eyebeam_bvh::Ray;
+use eyebeam_bvh::{Ray, Slot};
 use glam::Vec3;
 
 use crate::color::Spectrum;
@@ -24,14 +24,15 @@ pub struct SurfaceInteraction<'s> {
     wo: Vec3,
     material: &'s MaterialDesc,
     light: Option<u32>,
+    on: Slot,
 }
 
 impl<'s> SurfaceInteraction<'s> {
     /// Where a ray of unit direction `d` met the surface; `light` is its number among the scene's lights if it shines.
     #[inline]
-    pub(crate) fn new(point: SurfacePoint, d: Vec3, material: &'s MaterialDesc, light: Option<u32>) -> Self {
+    pub(crate) fn new(point: SurfacePoint, d: Vec3, material: &'s MaterialDesc, light: Option<u32>, on: Slot) -> Self {
         let frame = Frame::from_z(point.ns);
-        Self { point, frame, wo_world: -d, wo: frame.to_local(-d), material, light }
+        Self { point, frame, wo_world: -d, wo: frame.to_local(-d), material, light, on }
     }
 
     /// Where the surface was met.
@@ -90,7 +91,14 @@ impl<'s> SurfaceInteraction<'s> {
     /// A ray that leaves along `w` and does not meet this surface again at its start.
     #[inline]
     pub fn spawn_ray(&self, w: Vec3) -> Ray {
-        Ray::new(self.point.ray_origin(self.wo_world, w), w.normalize())
+        let ray = Ray::new(self.point.ray_origin(self.wo_world, w), w.normalize());
+        Ray { apart: [self.left_along(w), Slot::NONE], ..ray }
+    }
+
+    /// The primitive, if what leaves it along `w` does not come back to it.
+    #[inline]
+    fn left_along(&self, w: Vec3) -> Slot {
+        if self.point.is_round && w.dot(self.point.n) <= 0.0 { Slot::NONE } else { self.on }
     }
 
     /// The ray from here to a light, which ends before it.
@@ -98,13 +106,13 @@ impl<'s> SurfaceInteraction<'s> {
     pub fn shadow_ray(&self, light: &LightSample) -> Ray {
         match light.target {
             Target::Infinity => self.spawn_ray(light.wi),
-            Target::On(target) => {
+            Target::On { point: target, on } => {
                 let o = self.point.ray_origin(self.wo_world, light.wi);
                 let to = target - o;
                 let distance = to.length();
                 // Neither the distance nor the length of the direction is exact.
                 let t_max = distance * (1.0 - 8.0 * f32::EPSILON);
-                Ray { t_max, ..Ray::new(o, to / distance) }
+                Ray { t_max, apart: [self.left_along(light.wi), on], ..Ray::new(o, to / distance) }
             }
         }
     }

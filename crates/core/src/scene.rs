@@ -2,7 +2,7 @@
 
 use std::collections::BTreeMap;
 
-pub use eyebeam_bvh::{Bvh, Ray};
+pub use eyebeam_bvh::{Bvh, Ray, Slot};
 
 use eyebeam_bvh::{BuildError, Hit, Primitive, Quality};
 use glam::Vec2;
@@ -84,26 +84,14 @@ impl Scene {
             materials.push(material.clone());
         }
         let (mut primitives, mut object_of, mut objects) = (Vec::new(), Vec::new(), Vec::new());
-        let mut lights = Vec::new();
         for (_, _, shape) in desc.shape.iter() {
             let first = primitives.len();
             shape.push_primitives(&mut primitives);
             // The check has found that every name exists.
             let material = index_of.get(shape.material().unwrap_or(SceneDesc::DEFAULT_MATERIAL)).copied().unwrap_or(0);
-            let first_light = lights.len() as u32;
-            lights.extend(area_lights(&primitives[first..], &materials[material as usize]));
             object_of.resize(primitives.len(), objects.len() as u32);
-            objects.push(Object {
-                material,
-                first_primitive: first as u32,
-                first_light: (lights.len() as u32 > first_light).then_some(first_light),
-                smooth: shape.smooth(),
-            });
+            objects.push(Object { material, first_primitive: first as u32, first_light: None, smooth: shape.smooth() });
         }
-        lights.extend(desc.light.near());
-        let (environment, sun) = desc.environment.compile(options.environment);
-        let far = desc.light.far().chain(sun).collect();
-        let lights = Lights::new(lights, desc.render.light_selection, environment, far);
         let bvh = match options.acceleration {
             Acceleration::Auto => Bvh::build(&primitives, Quality::auto(expected_rays(desc), primitives.len())),
             Acceleration::Tree(quality) => Bvh::build(&primitives, quality),
@@ -111,7 +99,13 @@ impl Scene {
         };
         // The check has found that every number is finite and that the primitives are not too many.
         let refused = |e: BuildError| vec![Problem { path: vec!["shape".into()], message: e.to_string(), hint: None }];
-        Ok(Self { bvh: bvh.map_err(refused)?, object_of, objects, materials, lights, camera: desc.camera.clone() })
+        let bvh = bvh.map_err(refused)?;
+        let mut lights = area_lights(&primitives, &bvh, &object_of, &mut objects, &materials);
+        lights.extend(desc.light.near());
+        let (environment, sun) = desc.environment.compile(options.environment);
+        let far = desc.light.far().chain(sun).collect();
+        let lights = Lights::new(lights, desc.render.light_selection, environment, far);
+        Ok(Self { bvh, object_of, objects, materials, lights, camera: desc.camera.clone() })
     }
 
     /// The nearest surface that the ray meets; its direction must have length 1.
@@ -128,7 +122,7 @@ impl Scene {
         let surface = self.bvh.surface(hit, ray.time);
         let point = SurfacePoint::new(&surface, ray, hit, object.smooth.as_ref(), primitive);
         let light = object.first_light.map(|first| first + primitive);
-        SurfaceInteraction::new(point, ray.d, &self.materials[object.material as usize], light)
+        SurfaceInteraction::new(point, ray.d, &self.materials[object.material as usize], light, hit.slot())
     }
 
     /// As [`intersect`](Self::intersect), with what a picture can tell of the surface besides.
@@ -176,13 +170,31 @@ pub(crate) struct Look<'s> {
     pub(crate) ids: Ids,
 }
 
-/// The lights that primitives of a material are.
-fn area_lights(primitives: &[Primitive], material: &MaterialDesc) -> Vec<Light> {
-    let MaterialDesc::Emissive(emissive) = material else {
-        return Vec::new();
-    };
-    let light = |p| AreaLight::new(p, emissive.radiance.into(), emissive.two_sided).map(Light::Area);
-    primitives.iter().filter_map(light).collect()
+/// The lights that primitives are by their materials; notes in the objects which these are.
+fn area_lights(
+    primitives: &[Primitive],
+    bvh: &Bvh,
+    object_of: &[u32],
+    objects: &mut [Object],
+    materials: &[MaterialDesc],
+) -> Vec<Light> {
+    let mut lights = Vec::new();
+    if !materials.iter().any(|material| matches!(material, MaterialDesc::Emissive(_))) {
+        return lights;
+    }
+    let slots = bvh.slots();
+    for (i, (primitive, &object)) in primitives.iter().zip(object_of).enumerate() {
+        let object = &mut objects[object as usize];
+        let MaterialDesc::Emissive(emissive) = &materials[object.material as usize] else {
+            continue;
+        };
+        let slot = slots.get(i).copied().unwrap_or(Slot::NONE);
+        if let Some(light) = AreaLight::new(primitive, slot, emissive.radiance.into(), emissive.two_sided) {
+            object.first_light.get_or_insert(lights.len() as u32);
+            lights.push(Light::Area(light));
+        }
+    }
+    lights
 }
 
 /// About how many rays the picture takes.

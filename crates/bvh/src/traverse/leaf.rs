@@ -92,6 +92,7 @@ impl Leaf<'_> {
         search: &mut Search,
         accept: A,
     ) -> bool {
+        let block = Block { used: block.used & !search.apart(self.kind, self.block), ..block };
         let Some(flats) = Flats::meet(s, ray, block, outline, search.range()) else {
             return false;
         };
@@ -136,12 +137,13 @@ impl Leaf<'_> {
 /// Tests the spheres that may be hit; nothing must be pending if there are any.
 #[inline(always)]
 pub(super) fn test_spheres<const ANY: bool>(
-    mut met: u32,
+    met: u32,
     spheres: &SphereBlock,
     block: usize,
     search: &mut Search,
     accept: impl Accept,
 ) -> bool {
+    let mut met = met & !search.apart(Kind::Spheres, block);
     while met != 0 {
         let lane = take_lane(&mut met);
         if let Some(hit) = spheres.sphere(lane).intersect(&search.ray) {

@@ -13,7 +13,7 @@ pub(super) fn test_all<const ANY: bool>(tree: &Tree, search: &mut Search, accept
                 if test_instance::<ANY>(tree, block, search, accept) {
                     return true;
                 }
-            } else if tree.is_used(kind, block, lane) {
+            } else if tree.is_used(kind, block, lane) && search.apart(kind, block) >> lane & 1 == 0 {
                 search.test(tree, Slot::new(kind, block, lane), accept);
                 if ANY && search.found() {
                     return true;

@@ -104,7 +104,7 @@ fn numbers_that_are_not_finite() {
             assert!(bvh.stats().sah_cost.is_finite());
             for _ in 0..20_000 {
                 let o = if r.below(2) == 0 { r.in_cube() } else { any(&mut r, &ODD) };
-                let hit = bvh.intersect(&Ray { o, d: any(&mut r, &ODD), t_max: r.pick(&ODD), time: 0.0 });
+                let hit = bvh.intersect(&Ray { t_max: r.pick(&ODD), ..Ray::new(o, any(&mut r, &ODD)) });
                 assert!(hit.is_none_or(|h| h.t.is_finite()));
             }
         }

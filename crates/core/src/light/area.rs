@@ -2,7 +2,7 @@
 
 use std::f32::consts::PI;
 
-use eyebeam_bvh::Primitive;
+use eyebeam_bvh::{Primitive, Slot};
 use glam::{Vec2, Vec3};
 
 use crate::color::{Rgb, Spectrum};
@@ -20,6 +20,8 @@ pub(crate) struct AreaLight {
     shape: Shape,
     radiance: Spectrum,
     two_sided: bool,
+    /// Where the scene keeps it.
+    on: Slot,
 }
 
 #[derive(Clone, Copy, Debug)]
@@ -58,7 +60,7 @@ enum FlatSampling {
 
 impl AreaLight {
     /// None for a primitive that cannot shine.
-    pub(crate) fn new(primitive: &Primitive, radiance: Spectrum, two_sided: bool) -> Option<Self> {
+    pub(crate) fn new(primitive: &Primitive, on: Slot, radiance: Spectrum, two_sided: bool) -> Option<Self> {
         let shape = match primitive {
             Primitive::Sphere(s) => Shape::Sphere { center: s.center, radius: s.radius },
             Primitive::Quad(q) => {
@@ -69,7 +71,7 @@ impl AreaLight {
             Primitive::Triangle(t) => Shape::Flat(Flat::new(Kind::Triangle, t.a, [t.b - t.a, t.c - t.a])),
             Primitive::MovingTriangle(_) | Primitive::Instance(_) => return None,
         };
-        Some(Self { shape, radiance, two_sided })
+        Some(Self { shape, radiance, two_sided, on })
     }
 
     /// Where it is and how much it shines.
@@ -95,7 +97,8 @@ impl AreaLight {
             Shape::Sphere { center, radius } => self.sample_sphere(center, radius, p, u),
             Shape::Flat(flat) => self.sample_flat(&flat, p, u),
         }?;
-        let target = Target::On(offset_ray_origin(point.p, point.p_error, point.n, -wi));
+        let origin = offset_ray_origin(point.p, point.p_error, point.n, -wi);
+        let target = Target::On { point: origin, on: self.on };
         (pdf > 0.0).then_some(LightSample { wi, target, l: self.radiance, pdf, delta: false })
     }
 
@@ -213,7 +216,7 @@ mod tests {
     }
 
     fn light(primitive: Primitive) -> AreaLight {
-        AreaLight::new(&primitive, Spectrum::ONE, true).unwrap()
+        AreaLight::new(&primitive, Slot::NONE, Spectrum::ONE, true).unwrap()
     }
 
     /// Inside a box of lamps the irradiance of a point of a wall is π, whichever wall: what all samples make of it.
@@ -264,7 +267,7 @@ mod tests {
             for (i, distance) in [0.01, 0.3, 2.0, 50.0, 1e4].into_iter().cycle().take(2000).enumerate() {
                 let p = center + distance * uniform_sphere(numbers(i as u32));
                 let Some(sample) = light.sample(p, numbers(7 * i as u32 + 1)) else { continue };
-                let Target::On(point) = sample.target else { panic!("it is somewhere") };
+                let Target::On { point, .. } = sample.target else { panic!("it is somewhere") };
                 let pdf = light.pdf(p, point);
                 assert!((pdf / sample.pdf - 1.0).abs() < 0.02, "light {k} from {p}: {pdf}, not {}", sample.pdf);
                 assert!((point - p).normalize().dot(sample.wi) > 0.999, "light {k} from {p}");
@@ -281,7 +284,7 @@ mod tests {
         {
             let inside = Vec3::new(0.3, -0.1, 0.3);
             for two_sided in [false, true] {
-                let light = AreaLight::new(&primitive, Spectrum::ONE, two_sided).unwrap();
+                let light = AreaLight::new(&primitive, Slot::NONE, Spectrum::ONE, two_sided).unwrap();
                 assert!(light.sample(outside, Vec2::splat(0.4)).is_some());
                 assert_eq!(light.sample(inside, Vec2::splat(0.4)).is_some(), two_sided);
             }

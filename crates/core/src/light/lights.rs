@@ -8,6 +8,7 @@
 use std::f32::consts::PI;
 use std::sync::Arc;
 
+use eyebeam_bvh::Slot;
 use glam::{Vec2, Vec3};
 
 use crate::color::{Rgb, Spectrum};
@@ -62,7 +63,13 @@ fn from_point(position: Vec3, p: Vec3, intensity: impl FnOnce(Vec3) -> Spectrum)
     let to = position - p;
     let wi = to.try_normalize()?;
     let l = intensity(-wi) * (1.0 / to.length_squared());
-    (!l.is_black()).then_some(LightSample { wi, target: Target::On(position), l, pdf: 1.0, delta: true })
+    (!l.is_black()).then_some(LightSample {
+        wi,
+        target: Target::On { point: position, on: Slot::NONE },
+        l,
+        pdf: 1.0,
+        delta: true,
+    })
 }
 
 /// Where the last direction was drawn by a surface, and how: what its light is weighed by.

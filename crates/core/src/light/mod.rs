@@ -15,6 +15,7 @@ mod spot;
 
 use std::sync::Arc;
 
+use eyebeam_bvh::Slot;
 use glam::Vec3;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
@@ -110,8 +111,13 @@ pub struct LightSample {
 /// Where a light is.
 #[derive(Clone, Copy, Debug)]
 pub enum Target {
-    /// At a point, moved off the light's own surface.
-    On(Vec3),
+    /// Somewhere.
+    On {
+        /// The point, moved off the light's own surface.
+        point: Vec3,
+        /// That surface, which is not in the way.
+        on: Slot,
+    },
     /// Behind everything.
     Infinity,
 }

@@ -81,6 +81,8 @@ pub struct SurfacePoint {
     pub n: Vec3,
     /// Unit shading normal, on the side of the geometric one; the same without normals in the mesh.
     pub ns: Vec3,
+    /// Whether rays that go into the shape meet it again.
+    pub(crate) is_round: bool,
     /// From `p` to where rays start on the viewer's side.
     lift: Vec3,
 }
@@ -118,13 +120,14 @@ impl SurfacePoint {
         const DOUBLE: f64 = 16.0 * f64::EPSILON;
         let p = p.as_vec3();
         let p_error = p.abs() * f32::EPSILON + (DOUBLE * reach) as f32;
-        Self { p, p_error, n, ns: n, lift: Vec3::ZERO }
+        Self { p, p_error, n, ns: n, is_round: false, lift: Vec3::ZERO }
     }
 
     /// From a sphere and the direction of a point of it from its centre.
     #[inline]
     pub(crate) fn on_sphere(center: DVec3, radius: f64, n: DVec3) -> Self {
-        Self::rounded(center + n * radius, center.abs().max_element() + radius, n.as_vec3())
+        let point = Self::rounded(center + n * radius, center.abs().max_element() + radius, n.as_vec3());
+        Self { is_round: true, ..point }
     }
 
     /// From a point of the plane that two edges from `corner` span.

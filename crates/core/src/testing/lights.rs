@@ -1,6 +1,6 @@
 //! The lights of a scene, one by one.
 
-use eyebeam_bvh::{Bvh, Primitive, Ray};
+use eyebeam_bvh::{Bvh, Primitive, Ray, Slot};
 use glam::{Vec2, Vec3};
 
 use super::LightSampling;
@@ -38,7 +38,7 @@ struct Lamp {
 
 impl Lamp {
     fn new(primitive: Primitive, emissive: &Emissive) -> Option<Self> {
-        let light = AreaLight::new(&primitive, emissive.radiance.into(), emissive.two_sided)?;
+        let light = AreaLight::new(&primitive, Slot::NONE, emissive.radiance.into(), emissive.two_sided)?;
         Some(Self { light, shape: Bvh::list([primitive].as_slice()).ok()?, emissive: emissive.clone() })
     }
 

@@ -6,6 +6,7 @@ use eyebeam_core::color::Spectrum;
 use eyebeam_core::desc::SceneDesc;
 use eyebeam_core::light::select::SelectedLight;
 use eyebeam_core::light::{LightSample, Target};
+use eyebeam_core::scene::Slot;
 use eyebeam_core::shape::QuadDesc;
 use eyebeam_core::testing::{LightChoice, LightSampling, lights_of};
 use glam::{Vec2, Vec3};
@@ -69,7 +70,13 @@ impl LightSampling for ByArea {
         let target = self.corner + u.x * self.edges[0] + u.y * self.edges[1];
         let wi = (target - p).normalize();
         let l = self.inner.le(p, wi);
-        Some(LightSample { wi, target: Target::On(target), l, pdf: self.density(), delta: false })
+        Some(LightSample {
+            wi,
+            target: Target::On { point: target, on: Slot::NONE },
+            l,
+            pdf: self.density(),
+            delta: false,
+        })
     }
 
     fn pdf(&self, p: Vec3, wi: Vec3) -> f32 {
