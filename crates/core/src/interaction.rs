@@ -29,7 +29,7 @@ pub struct SurfaceInteraction<'s> {
 
 impl<'s> SurfaceInteraction<'s> {
     /// Where a ray of unit direction `d` met the surface; `light` is its number among the scene's lights if it shines.
-    #[inline]
+    #[inline(always)]
     pub(crate) fn new(point: SurfacePoint, d: Vec3, material: &'s MaterialDesc, light: Option<u32>, on: Slot) -> Self {
         let frame = Frame::from_z(point.ns);
         Self { point, frame, wo_world: -d, wo: frame.to_local(-d), material, light, on }
@@ -74,7 +74,7 @@ impl<'s> SurfaceInteraction<'s> {
     }
 
     /// Draws where the light that is scattered back along the ray comes from; none if it is absorbed.
-    #[inline]
+    #[inline(always)]
     pub fn scatter(&self, bsdf: &Bsdf, sampler: &mut Sampler<'_>) -> Option<(BsdfSample, Ray)> {
         let (uc, u) = sampler.get_3d();
         let sample = bsdf.sample(self.wo, uc, u)?;

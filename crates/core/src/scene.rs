@@ -109,13 +109,13 @@ impl Scene {
     }
 
     /// The nearest surface that the ray meets; its direction must have length 1.
-    #[inline]
+    #[inline(always)]
     pub fn intersect(&self, ray: &Ray) -> Option<SurfaceInteraction<'_>> {
         let hit = self.bvh.intersect(ray)?;
         Some(self.interaction(ray, &hit))
     }
 
-    #[inline]
+    #[inline(always)]
     fn interaction(&self, ray: &Ray, hit: &Hit) -> SurfaceInteraction<'_> {
         let object = &self.objects[self.object_of[hit.prim as usize] as usize];
         let primitive = hit.prim - object.first_primitive;

@@ -91,7 +91,7 @@ impl Sampler<'_> {
     }
 
     /// A number to choose with and two more, each in [0, 1): spread evenly over the cube.
-    #[inline]
+    #[inline(always)]
     pub fn get_3d(&mut self) -> (f32, Vec2) {
         match self {
             Self::Independent(s) => (s.get_1d(), s.get_2d()),
