@@ -6,7 +6,7 @@ use glam::Vec3;
 use crate::color::Spectrum;
 use crate::light::{LightSample, Target};
 use crate::material::{Bsdf, BsdfSample, MaterialDesc};
-use crate::math::Frame;
+use crate::math::{Frame, renormalize};
 use crate::sampler::Sampler;
 use crate::shape::SurfacePoint;
 
@@ -91,7 +91,7 @@ impl<'s> SurfaceInteraction<'s> {
     /// A ray that leaves along `w` and does not meet this surface again at its start.
     #[inline]
     pub fn spawn_ray(&self, w: Vec3) -> Ray {
-        let ray = Ray::new(self.point.ray_origin(self.wo_world, w), w.normalize());
+        let ray = Ray::new(self.point.ray_origin(self.wo_world, w), renormalize(w));
         Ray { apart: [self.left_along(w), Slot::NONE], ..ray }
     }
 

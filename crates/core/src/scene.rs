@@ -13,7 +13,7 @@ use crate::film::Ids;
 use crate::interaction::SurfaceInteraction;
 use crate::light::{AreaLight, EnvironmentSampling, Light, Lights};
 use crate::material::MaterialDesc;
-use crate::shape::{Smooth, SurfacePoint, surface_uv};
+use crate::shape::{Plane, Smooth, SurfacePoint, surface_uv};
 use crate::validate::Problem;
 
 /// How rays find what they hit.
@@ -57,6 +57,8 @@ struct Object {
     /// Number of the first primitive's light; the next ones follow.
     first_light: Option<u32>,
     smooth: Option<Smooth>,
+    /// If it is a single quad.
+    plane: Option<Plane>,
 }
 
 impl Scene {
@@ -90,7 +92,13 @@ impl Scene {
             // The check has found that every name exists.
             let material = index_of.get(shape.material().unwrap_or(SceneDesc::DEFAULT_MATERIAL)).copied().unwrap_or(0);
             object_of.resize(primitives.len(), objects.len() as u32);
-            objects.push(Object { material, first_primitive: first as u32, first_light: None, smooth: shape.smooth() });
+            objects.push(Object {
+                material,
+                first_primitive: first as u32,
+                first_light: None,
+                smooth: shape.smooth(),
+                plane: shape.plane(),
+            });
         }
         let bvh = match options.acceleration {
             Acceleration::Auto => Bvh::build(&primitives, Quality::auto(expected_rays(desc), primitives.len())),
@@ -119,8 +127,13 @@ impl Scene {
     fn interaction(&self, ray: &Ray, hit: &Hit) -> SurfaceInteraction<'_> {
         let object = &self.objects[self.object_of[hit.prim as usize] as usize];
         let primitive = hit.prim - object.first_primitive;
-        let surface = self.bvh.surface(hit, ray.time);
-        let point = SurfacePoint::new(&surface, ray, hit, object.smooth.as_ref(), primitive);
+        let point = match &object.plane {
+            Some(plane) => plane.point(Vec2::new(hit.u, hit.v)),
+            None => {
+                let surface = self.bvh.surface(hit, ray.time);
+                SurfacePoint::new(&surface, ray, hit, object.smooth.as_ref(), primitive)
+            }
+        };
         let light = object.first_light.map(|first| first + primitive);
         SurfaceInteraction::new(point, ray.d, &self.materials[object.material as usize], light, hit.slot())
     }

@@ -8,7 +8,6 @@ use glam::{Vec2, Vec3};
 use crate::color::{Rgb, Spectrum};
 use crate::light::select::LightBounds;
 use crate::light::{LightSample, Target};
-use crate::math::offset_ray_origin;
 use crate::sampling::{
     SphereCone, SphereSample, SphericalRectangle, SphericalTriangle, pdf_from_area, uniform_sphere, uniform_triangle,
 };
@@ -38,6 +37,8 @@ struct Flat {
     edges: [Vec3; 2],
     n: Vec3,
     area: f32,
+    /// The largest coordinate of the corner and the edges, by size.
+    reach: f32,
     /// From this squared distance on, cos θ / distance² is nearly the same everywhere.
     far_sq: f32,
 }
@@ -97,8 +98,7 @@ impl AreaLight {
             Shape::Sphere { center, radius } => self.sample_sphere(center, radius, p, u),
             Shape::Flat(flat) => self.sample_flat(&flat, p, u),
         }?;
-        let origin = offset_ray_origin(point.p, point.p_error, point.n, -wi);
-        let target = Target::On { point: origin, on: self.on };
+        let target = Target::On { point: point.ray_origin(-wi, -wi), on: self.on };
         (pdf > 0.0).then_some(LightSample { wi, target, l: self.radiance, pdf, delta: false })
     }
 
@@ -163,15 +163,15 @@ impl Flat {
         let share = if kind == Kind::Triangle { 0.5 } else { 1.0 };
         let far_sq = Self::FAR * Self::FAR * (edges[0].abs() + edges[1].abs()).length_squared();
         let (n, area) = (normal.normalize_or_zero().as_vec3(), share * normal.length() as f32);
-        Self { kind, corner, edges, n, area, far_sq }
+        let reach = corner.abs().max(edges[0].abs()).max(edges[1].abs()).max_element();
+        Self { kind, corner, edges, n, area, reach, far_sq }
     }
 
     #[inline]
     fn point(&self, uv: Vec2) -> SurfacePoint {
         let (corner, uv) = (self.corner.as_dvec3(), uv.as_dvec2());
         let [u, v] = self.edges.map(|e| e.as_dvec3());
-        let reach = corner.abs().max(u.abs()).max(v.abs()).max_element();
-        SurfacePoint::rounded(corner + u * uv.x + v * uv.y, reach, self.n)
+        SurfacePoint::rounded(corner + u * uv.x + v * uv.y, self.reach.into(), self.n)
     }
 
     /// Lengths of the shape away, sampling the area makes as little noise as the solid angle, and costs less.

@@ -5,11 +5,13 @@ mod hash;
 mod offset;
 mod pose;
 mod reflect;
+mod renormalize;
 mod trig;
 
 pub use frame::Frame;
 pub(crate) use hash::{BELOW_ONE, GAMMA, mix, unit};
-pub use offset::offset_ray_origin;
+pub use offset::clearance;
 pub(crate) use pose::Pose;
 pub use reflect::{reflect, reflect_at, refract};
+pub use renormalize::renormalize;
 pub use trig::{sin_cos_eighth, sin_cos_turns};

@@ -1,18 +1,17 @@
 //! Ray origins that do not hit the surface they start on.
 //!
-//! Pharr, Jakob & Humphreys, Physically Based Rendering, 4th ed. 2023, §6.8.6: the origin moves along the normal by as
-//! much as the point's rounding error reaches in that direction, and no farther, at every scale.
+//! Pharr, Jakob & Humphreys, Physically Based Rendering, 4th ed. 2023, §6.8.6: the origin moves along the normal, to the side
+//! that the ray leaves to, by as much as the point's rounding error reaches in that direction, and no farther, at every scale.
 
 use glam::Vec3;
 
-/// The origin of a ray that leaves along `w` a surface point `p` with normal `n`, whose coordinates are off by
-/// at most `p_error`.
+/// How far a ray must start from a surface point `p` with normal `n`, along this, if the point's coordinates are off by at most
+/// `p_error`.
 #[inline]
-pub fn offset_ray_origin(p: Vec3, p_error: Vec3, n: Vec3, w: Vec3) -> Vec3 {
-    // The sum below is rounded too, by at most half of this.
+pub fn clearance(p: Vec3, p_error: Vec3, n: Vec3) -> f32 {
+    // The sum of this and the point is rounded, too, by at most half of this.
     let rounding = p.abs() * f32::EPSILON;
-    let d = n.abs().dot(p_error + rounding);
-    p + n * d.copysign(w.dot(n))
+    n.abs().dot(p_error + rounding)
 }
 
 #[cfg(test)]
@@ -34,7 +33,8 @@ mod tests {
         ) {
             let (p, n, w) = (Vec3::from(p) * scale, Vec3::from(n).normalize_or(Vec3::Y), Vec3::from(w));
             let p_error = p.abs() * f32::EPSILON;
-            let moved = (offset_ray_origin(p, p_error, n, w).as_dvec3() - p.as_dvec3()).dot(n.as_dvec3());
+            let origin = p + n * clearance(p, p_error, n).copysign(w.dot(n));
+            let moved = (origin.as_dvec3() - p.as_dvec3()).dot(n.as_dvec3());
             let needed = p_error.as_dvec3().dot(n.abs().as_dvec3());
             prop_assert!(moved.abs() >= needed && (moved > 0.0) == (w.dot(n) >= 0.0), "{moved} of {needed}");
         }

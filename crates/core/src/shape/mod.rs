@@ -3,19 +3,22 @@
 //! Each file holds a shape as a scene states it, the primitives that rays meet, and the point and normal of a hit.
 
 mod mesh;
+mod plane;
+mod point;
 mod quad;
 mod smooth;
 mod sphere;
 
 use eyebeam_bvh::{Bvh, Hit, Primitive, Ray, Surface};
-use glam::{DVec2, DVec3, Vec2, Vec3};
+use glam::{Vec2, Vec3};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
-use crate::math::offset_ray_origin;
 use crate::validate::Checker;
 
 pub use mesh::{MeshData, MeshDesc};
+pub(crate) use plane::Plane;
+pub use point::SurfacePoint;
 pub use quad::QuadDesc;
 pub(crate) use smooth::Smooth;
 pub use sphere::SphereDesc;
@@ -68,23 +71,11 @@ pub(crate) trait ShapeDesc {
     fn smooth(&self) -> Option<Smooth> {
         None
     }
-}
 
-/// A point of a surface.
-#[derive(Clone, Copy, Debug)]
-pub struct SurfacePoint {
-    /// The point, on the surface but for rounding.
-    pub p: Vec3,
-    /// The most that each coordinate of `p` is off.
-    pub p_error: Vec3,
-    /// Unit geometric normal.
-    pub n: Vec3,
-    /// Unit shading normal, on the side of the geometric one; the same without normals in the mesh.
-    pub ns: Vec3,
-    /// Whether rays that go into the shape meet it again.
-    pub(crate) is_round: bool,
-    /// From `p` to where rays start on the viewer's side.
-    lift: Vec3,
+    /// Its plane, if it is one.
+    fn plane(&self) -> Option<Plane> {
+        None
+    }
 }
 
 impl SurfacePoint {
@@ -94,54 +85,14 @@ impl SurfacePoint {
         match surface {
             Surface::Sphere(s) => sphere::point(s, ray, hit),
             Surface::Flat { corner, edges } => {
-                let flat = Self::on_plane(*corner, *edges, Vec2::new(hit.u, hit.v));
+                let flat = Plane::new(*corner, *edges).point(Vec2::new(hit.u, hit.v));
                 let Some(smooth) = smooth else {
                     return flat;
                 };
                 let shading = smooth.shading(triangle, *edges, flat.n, ray.d, hit);
-                Self { ns: shading.ns, lift: shading.lift, ..flat }
+                flat.shaded(shading.ns, shading.lift)
             }
         }
-    }
-
-    /// Where a ray along `w` starts, so that it does not meet this surface again. `viewer` is a direction to the side that
-    /// the point was seen from.
-    #[inline]
-    pub(crate) fn ray_origin(&self, viewer: Vec3, w: Vec3) -> Vec3 {
-        let lift = if (w.dot(self.n) > 0.0) == (viewer.dot(self.n) > 0.0) { self.lift } else { Vec3::ZERO };
-        offset_ray_origin(self.p + lift, self.p_error, self.n, w)
-    }
-
-    /// From a point that double precision has computed from lengths up to `reach`: rounding it to single precision is the
-    /// larger error, except where coordinates are near 0.
-    #[inline]
-    pub(crate) fn rounded(p: DVec3, reach: f64, n: Vec3) -> Self {
-        /// What the point and the next intersection with the shape may be off, in double precision, relative to `reach`.
-        const DOUBLE: f64 = 16.0 * f64::EPSILON;
-        let p = p.as_vec3();
-        let p_error = p.abs() * f32::EPSILON + (DOUBLE * reach) as f32;
-        Self { p, p_error, n, ns: n, is_round: false, lift: Vec3::ZERO }
-    }
-
-    /// From a sphere and the direction of a point of it from its centre.
-    #[inline]
-    pub(crate) fn on_sphere(center: DVec3, radius: f64, n: DVec3) -> Self {
-        let point = Self::rounded(center + n * radius, center.abs().max_element() + radius, n.as_vec3());
-        Self { is_round: true, ..point }
-    }
-
-    /// From a point of the plane that two edges from `corner` span.
-    #[inline]
-    pub(crate) fn on_plane(corner: DVec3, edges: [DVec3; 2], uv: Vec2) -> Self {
-        let normal = edges[0].cross(edges[1]);
-        // Nothing without area is ever hit.
-        let area_inv = 1.0 / normal.length();
-        let [u, v] = edges.map(|e| e.abs());
-        let reach = corner.abs().max(u).max(v).max_element();
-        // Twice as far as the point may be off, in edges of the shape.
-        let margin = 4.0 * f64::from(f32::EPSILON) * reach * (u + v).element_sum() * area_inv;
-        let uv = inset(uv.as_dvec2(), margin.min(1e-4));
-        Self::rounded(corner + edges[0] * uv.x + edges[1] * uv.y, reach, (normal * area_inv).as_vec3())
     }
 }
 
@@ -152,14 +103,4 @@ pub(crate) fn surface_uv(surface: &Surface, hit: &Hit, n: Vec3) -> Vec2 {
         Surface::Sphere(_) => sphere::uv(n),
         Surface::Flat { .. } => Vec2::new(hit.u, hit.v),
     }
-}
-
-/// Moves what is nearer than `margin` to an edge of a triangle or quad away from it: otherwise rounding could put the point
-/// into or behind the surface that it meets there, and rays would leave a closed room.
-#[inline]
-fn inset(uv: DVec2, margin: f64) -> DVec2 {
-    let inner = uv.clamp(DVec2::splat(margin), DVec2::splat(1.0 - margin));
-    // The edge opposite to the corner, if it is a triangle; else a line like any other.
-    let beyond = inner.element_sum() - 1.0;
-    if beyond.abs() < margin { inner - 0.5 * (beyond + margin) } else { inner }
 }

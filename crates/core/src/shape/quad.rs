@@ -14,7 +14,7 @@ use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 use crate::array::array;
-use crate::shape::ShapeDesc;
+use crate::shape::{Plane, ShapeDesc};
 use crate::validate::Checker;
 
 /// A parallelogram: a corner and two edges. Its normal is u × v.
@@ -49,6 +49,11 @@ impl ShapeDesc for QuadDesc {
     fn push_primitives(&self, primitives: &mut Vec<Primitive>) {
         let quad = Quad { corner: Vec3::from(self.corner), u: Vec3::from(self.u), v: Vec3::from(self.v) };
         primitives.push(Primitive::Quad(quad));
+    }
+
+    fn plane(&self) -> Option<Plane> {
+        let [corner, u, v] = [self.corner, self.u, self.v].map(|v| Vec3::from(v).as_dvec3());
+        Some(Plane::new(corner, [u, v]))
     }
 
     fn material(&self) -> Option<&str> {

@@ -88,11 +88,11 @@ impl LightSelector {
     /// `Vec3::ZERO`. `None` means that the light of the scene that `uc` stands for cannot reach `p`: it counts as 0.
     #[inline]
     pub fn sample(&self, p: Vec3, n: Vec3, uc: f32) -> Option<SelectedLight> {
-        let u = refine(uc, p);
+        let u = || refine(uc, p);
         let (index, pmf, rest) = match &self.choice {
             Choice::Only(index) => return Some(SelectedLight { index: *index, pmf: 1.0, uc }),
-            Choice::Discrete(discrete) => discrete.sample(u)?,
-            Choice::Tree(tree) => tree.sample(p, n, u)?,
+            Choice::Discrete(discrete) => discrete.sample(u())?,
+            Choice::Tree(tree) => tree.sample(p, n, u())?,
         };
         let pmf = pmf as f32;
         (pmf > 0.0).then_some(SelectedLight { index, pmf, uc: (rest as f32).clamp(0.0, BELOW_ONE) })
