@@ -154,6 +154,18 @@ impl Search {
         }
     }
 
+    /// The nearest hit.
+    #[inline(always)]
+    pub(crate) fn finish(self, tree: &Tree, accept: impl Accept) -> Option<Hit> {
+        // Handed on as it is computed: what has just been stored field by field takes long to be loaded as a whole.
+        if self.pending != Slot::NONE
+            && let Some(hit) = self.exact(tree, self.pending, accept)
+        {
+            return Some(hit);
+        }
+        self.hit()
+    }
+
     /// Tests a primitive, after what is pending.
     #[inline(never)]
     pub(crate) fn test(&mut self, tree: &Tree, slot: Slot, accept: impl Accept) {
@@ -161,29 +173,46 @@ impl Search {
         self.test_now(tree, slot, accept);
     }
 
-    /// Of hits at the same distance, that of the lowest index counts.
     #[inline(always)]
     fn test_now(&mut self, tree: &Tree, slot: Slot, accept: impl Accept) {
-        let (kind, block, lane) = slot.unpack();
-        if let Some(hit) = tree.intersect(kind, block, lane, &self.ray) {
-            self.offer(&hit, tree.id(kind, block, lane), slot, accept);
+        if let Some(hit) = self.exact(tree, slot, accept) {
+            self.keep(hit);
         }
+    }
+
+    /// The exact hit of a primitive if it counts.
+    #[inline(always)]
+    fn exact(&self, tree: &Tree, slot: Slot, accept: impl Accept) -> Option<Hit> {
+        let (kind, block, lane) = slot.unpack();
+        let hit = tree.intersect(kind, block, lane, &self.ray)?;
+        self.counts(&hit, tree.id(kind, block, lane), slot, accept)
     }
 
     /// Takes an exact hit if it counts; nothing must be pending.
     #[inline(always)]
     pub(crate) fn offer(&mut self, hit: &PrimHit, prim: u32, slot: Slot, accept: impl Accept) {
+        if let Some(hit) = self.counts(hit, prim, slot, accept) {
+            self.keep(hit);
+        }
+    }
+
+    /// An exact hit, if it counts: if it is nearer than the nearest, or as near and of a lower index.
+    #[inline(always)]
+    fn counts(&self, hit: &PrimHit, prim: u32, slot: Slot, accept: impl Accept) -> Option<Hit> {
         let t = (hit.t as f32).max(self.floor);
         if t > self.nearest.t {
-            return;
+            return None;
         }
         let hit = Hit { t, prim, u: hit.u as f32, v: hit.v as f32, instances: self.instances, slot };
         let nearest = &self.nearest;
         let counts = t > 0.0 && (t < nearest.t || (t == nearest.t && hit.precedes(nearest)));
-        if counts && accept.accepts(&hit) {
-            self.nearest = hit;
-            self.pending_far = t;
-        }
+        (counts && accept.accepts(&hit)).then_some(hit)
+    }
+
+    #[inline(always)]
+    fn keep(&mut self, hit: Hit) {
+        self.nearest = hit;
+        self.pending_far = hit.t;
     }
 
     /// The search within an instance, by the ray in its object's space, from where the ray enters its box; none if the

@@ -32,7 +32,7 @@ impl<A: Accept> Task for Nearest<'_, A> {
     fn run<C: Cpu>(self, cpu: C) -> Option<Hit> {
         let mut search = Search::new(self.ray);
         walk::<false, _, _>(cpu, self.bvh, &mut search, self.accept);
-        search.hit()
+        search.finish(&self.bvh.tree, self.accept)
     }
 }
 
@@ -64,11 +64,13 @@ impl<const ANY: bool, A: Accept> Task for Within<'_, ANY, A> {
 
     #[inline(always)]
     fn run<C: Cpu>(self, cpu: C) -> bool {
-        walk::<ANY, _, _>(cpu, self.object, self.search, self.accept)
+        let is_hit = walk::<ANY, _, _>(cpu, self.object, self.search, self.accept);
+        self.search.settle(&self.object.tree, self.accept);
+        is_hit
     }
 }
 
-/// Visits what the ray may meet, near things first; whether it has ended with a hit, if `ANY`.
+/// Visits what the ray may meet, near things first; whether it has ended with a hit, if `ANY`. Otherwise a hit may be pending.
 #[inline(always)]
 fn walk<const ANY: bool, C: Cpu, A: Accept>(cpu: C, bvh: &Bvh, search: &mut Search, accept: A) -> bool {
     let tree = &bvh.tree;
@@ -104,7 +106,6 @@ fn walk<const ANY: bool, C: Cpu, A: Accept>(cpu: C, bvh: &Bvh, search: &mut Sear
             },
         };
     }
-    search.settle(tree, accept);
     false
 }
 

@@ -114,7 +114,7 @@ pub struct BsdfSample {
 
 impl Bsdf {
     /// Draws `wi` for a `wo`; none if the light is absorbed.
-    #[inline]
+    #[inline(always)]
     pub fn sample(&self, wo: Vec3, uc: f32, u: Vec2) -> Option<BsdfSample> {
         match self {
             Self::Lambertian(b) => b.sample(wo, u),
