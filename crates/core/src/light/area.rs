@@ -175,7 +175,7 @@ impl Flat {
     }
 
     /// Lengths of the shape away, sampling the area makes as little noise as the solid angle, and costs less.
-    const FAR: f32 = 2.0;
+    const FAR: f32 = 1.5;
 
     #[inline]
     fn sampling(&self, p: Vec3) -> FlatSampling {
