@@ -2,7 +2,7 @@
 
 use std::hint::black_box;
 use std::num::NonZeroUsize;
-use std::path::Path;
+use std::path::{Path, PathBuf};
 use std::time::Duration;
 
 use cpu_time::ThreadTime;
@@ -19,6 +19,17 @@ use eyebeam_io::Error;
 pub fn read_scene(name: &str) -> Result<SceneDesc, Error> {
     let scenes = Path::new(concat!(env!("CARGO_MANIFEST_DIR"), "/../scenes"));
     Ok(eyebeam_io::scene::read(&scenes.join(name).with_extension("toml"), &[])?.desc)
+}
+
+/// The files in a folder of the corpus of other people's scenes, sorted by name: below `EYEBEAM_CORPUS`, or beside the
+/// repository. None if it is not there.
+pub fn corpus(folder: &str) -> Vec<PathBuf> {
+    let beside = || Path::new(concat!(env!("CARGO_MANIFEST_DIR"), "/../../shared/scenes")).to_owned();
+    let root = std::env::var_os("EYEBEAM_CORPUS").map_or_else(beside, PathBuf::from);
+    let files = std::fs::read_dir(root.join(folder)).into_iter().flatten().flatten().map(|entry| entry.path());
+    let mut files: Vec<_> = files.filter(|path| path.extension().is_some_and(|ending| ending == "hdr")).collect();
+    files.sort();
+    files
 }
 
 /// Makes a picture so small that measuring it takes little time: as wide as asked, of the scene's own proportions, and by

@@ -18,9 +18,10 @@ use eyebeam_core::material::{Emissive, Lambertian, MaterialDesc, Metal};
 use eyebeam_core::sampler::{Independent, SamplerKind};
 use eyebeam_core::scene::{BuildOptions, Scene};
 use eyebeam_core::shape::{MeshDesc, QuadDesc, SphereDesc};
+use eyebeam_io::image::read_image;
 use glam::UVec2;
 
-use crate::measure::{median, read_scene, render, thread_time};
+use crate::measure::{corpus, median, read_scene, render, thread_time};
 
 const SPP: u32 = 64;
 
@@ -60,6 +61,14 @@ pub fn run(rounds: usize) -> Result<(), Box<dyn Error>> {
     }
     for (name, image) in [("even sky", even_sky()), ("cloudy sky", cloudy_sky()), ("sky with a sun", sunny_sky())] {
         table(name, environments(&garden(image)), rounds)?;
+    }
+    let photographs = corpus("hdri");
+    if photographs.is_empty() {
+        println!("No photographs of skies: set EYEBEAM_CORPUS to the folder that holds `hdri/*.hdr`.");
+    }
+    for path in photographs {
+        let name = path.file_stem().unwrap_or_default().to_string_lossy();
+        table(&name, environments(&garden(read_image(&path)?.0)), rounds)?;
     }
     Ok(())
 }
