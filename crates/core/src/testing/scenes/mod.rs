@@ -2,11 +2,13 @@
 //! they have in the mean.
 
 pub mod build;
+mod facets;
 mod facing;
 mod far;
 mod glass;
 mod lamps;
 mod room;
+mod sky;
 
 use std::num::NonZeroUsize;
 use std::ops::Range;
@@ -41,8 +43,8 @@ pub fn all() -> Vec<KnownScene> {
     /// Some of the numbers take a while to compute: once is enough.
     static ALL: OnceLock<Vec<KnownScene>> = OnceLock::new();
     let build = || {
-        let near = [room::scenes(), glass::scenes(), lamps::scenes(), facing::scenes()];
-        [near.concat(), far::scenes()].concat()
+        let near = [room::scenes(), glass::scenes(), facets::scenes(), lamps::scenes(), facing::scenes()];
+        [near.concat(), far::scenes(), sky::scenes()].concat()
     };
     ALL.get_or_init(build).clone()
 }
