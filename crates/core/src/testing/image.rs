@@ -86,6 +86,16 @@ impl Estimate {
         Self { mean, standard_error: (variance / n).sqrt() }
     }
 
+    /// Of the mean over a picture, by at least two of it. Its pixels are independent, but differ: the scatter of each from
+    /// picture to picture is what counts.
+    pub fn of_pictures(pictures: &[Vec<f64>]) -> Self {
+        let size = pictures[0].len();
+        let pixels = (0..size).map(|i| Self::new(&pictures.iter().map(|picture| picture[i]).collect::<Vec<_>>()));
+        let (sum, variance) =
+            pixels.fold((0.0, 0.0), |(sum, variance), it| (sum + it.mean, variance + it.standard_error.powi(2)));
+        Self { mean: sum / size as f64, standard_error: variance.sqrt() / size as f64 }
+    }
+
     /// Z-test against what is known, but for `rounding` relative to it. `tests` are run together.
     ///
     /// # Errors
@@ -125,6 +135,14 @@ mod tests {
         estimate.z_test(f64::NAN, 0.0, 1).unwrap_err();
         Estimate::new(&[1.0, 1.0]).z_test(1.0, 0.0, 1).unwrap();
         Estimate::new(&[1.0, f64::NAN]).z_test(1.0, 0.0, 1).unwrap_err();
+    }
+
+    /// Two pixels that differ by 10 and scatter as much as one another.
+    #[test]
+    fn pixels_of_pictures_may_differ() {
+        let estimate = Estimate::of_pictures(&[vec![1.0, 14.0], vec![3.0, 12.0], vec![2.0, 13.0]]);
+        assert!((estimate.mean - 7.5).abs() < 1e-12);
+        assert!((estimate.standard_error - (2.0_f64 / 3.0).sqrt() / 2.0).abs() < 1e-12);
     }
 
     #[test]

@@ -74,13 +74,17 @@ fn mistakes_of_integrators_are_found() {
     assert_found(&[
         (LightCountedTwice, "rectangle over a floor"),
         (LightCountedTwice, "five lamps over a floor"),
+        (LightCountedTwice, "square 1 below a square lamp"),
         (LightCountedTwice, "integrators agree"),
         (RouletteWithoutWeight, "glowing ball, 40 edges"),
         (OneEdgeTooMany, "glowing ball, 2 edges"),
         (NoShadows, "floor behind a screen"),
         (BothSidesShine, "floor behind a lamp"),
         (GlassInsideOut, "inside glass of index 1.5"),
+        (GlassInsideOut, "frosted glass of roughness 0.5 at 150 degrees"),
         (LightsForgotten, "point over a floor"),
+        (LightsForgotten, "turned luminaire over a floor"),
+        (LightsForgotten, "projector over a floor"),
     ]);
 }
 
@@ -92,8 +96,10 @@ fn the_reference_passes() {
         "glowing ball, 2 edges",
         "white furnace, hollow glass",
         "plate of glass at 75 degrees",
+        "gold of roughness 0.5 at 60 degrees",
         "rectangle over a floor",
         "five lamps over a floor",
+        "square 1 below a square lamp",
         "floor behind a screen",
         "floor behind a lamp",
         "floor under a sun of 40 degrees",

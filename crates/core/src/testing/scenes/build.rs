@@ -1,6 +1,6 @@
 //! Scenes in few words.
 
-use crate::camera::CameraDesc;
+use crate::camera::{CameraDesc, OrthographicDesc};
 use crate::color::Rgb;
 use crate::desc::SceneDesc;
 use crate::light::{Constant, EnvironmentDesc, NoLight};
@@ -24,6 +24,11 @@ pub fn look(from: [f32; 3], at: [f32; 3], vfov: f32) -> CameraDesc {
 /// So narrow that all pixels look at the same point.
 pub(super) fn stare(from: [f32; 3], at: [f32; 3]) -> CameraDesc {
     look(from, at, 0.002)
+}
+
+/// Parallel rays that show a square of a height, metres, around `at`.
+pub(super) fn parallel(from: [f32; 3], at: [f32; 3], height: f32) -> CameraDesc {
+    CameraDesc { vfov: None, orthographic: Some(OrthographicDesc { height }), ..look(from, at, 1.0) }
 }
 
 /// Nothing but surroundings, and an eye.

@@ -1,6 +1,7 @@
 //! A floor under lamps.
 
 use std::f64::consts::PI;
+use std::sync::Arc;
 
 use glam::DVec3;
 
@@ -8,7 +9,8 @@ use super::KnownScene;
 use super::build::*;
 use crate::color::Rgb;
 use crate::desc::SceneDesc;
-use crate::light::{PointLight, SpotLight};
+use crate::film::Image;
+use crate::light::{IesLight, IesProfile, PointLight, ProjectorLight, SpotLight};
 use crate::shape::MeshDesc;
 
 pub(super) fn scenes() -> Vec<KnownScene> {
@@ -24,6 +26,9 @@ pub(super) fn scenes() -> Vec<KnownScene> {
         over("point", point).hidden(),
         over("axis of a spot", spot_axis).hidden(),
         over("rim of a spot", spot_rim).hidden(),
+        over("tilted luminaire", luminaire_tilted).hidden(),
+        over("turned luminaire", luminaire_turned).hidden(),
+        over("projector", projector).hidden(),
         all_lamps().hidden(),
         behind_a_screen(),
         behind_a_lamp(),
@@ -98,6 +103,70 @@ fn spot(desc: &mut SceneDesc, look_at: [f32; 3], share: f64) -> f64 {
     let (position, intensity) = ([0.0, SPOT_HEIGHT as f32, 0.0], Rgb::grey(5.0));
     desc.light.spot.push(SpotLight { position, look_at, intensity, inner: Some(20.0), outer: 30.0 });
     share * 5.0 / SPOT_HEIGHT.powi(2)
+}
+
+const LUMINAIRE: DVec3 = DVec3::new(0.9, 1.1, -0.6);
+
+/// A luminaire, and what its candela towards the origin bring there: over the efficacy of light that is even from 370 to
+/// 730 nm, and times cos θ / d².
+fn luminaire(desc: &mut SceneDesc, nadir: DVec3, rotation: f32, profile: IesProfile, candela: f64) -> f64 {
+    desc.light.ies.push(IesLight {
+        file: String::new(),
+        position: LUMINAIRE.as_vec3().into(),
+        direction: nadir.as_vec3().into(),
+        rotation,
+        scale: 2.0,
+        color: Rgb::grey(1.0),
+        profile: Some(Arc::new(profile)),
+    });
+    2.0 * candela * 360.0 / (683.0 * 106.86) * LUMINAIRE.y / LUMINAIRE.length().powi(3)
+}
+
+/// 900 cd · (1 − θ / 120°), which interpolation of two values hits at all angles.
+fn luminaire_tilted(desc: &mut SceneDesc) -> f64 {
+    let nadir = DVec3::new(0.2, -1.0, 0.7);
+    let profile = profile(&[0.0, 120.0], &[0.0], |theta, _| 900.0 * (1.0 - theta / 120.0));
+    let theta = nadir.angle_between(-LUMINAIRE).to_degrees();
+    luminaire(desc, nadir, 0.0, profile, 900.0 * (1.0 - theta / 120.0))
+}
+
+/// (100 + 7 θ) (1 + φ / 60°) cd up to φ = 180°, mirrored beyond. From above the lamp the origin is between −x and +z,
+/// 180° + atan(0.6 / 0.9) around it.
+fn luminaire_turned(desc: &mut SceneDesc) -> f64 {
+    const TURN: f32 = 30.0;
+    let candela = |theta: f64, phi: f64| (100.0 + 7.0 * theta) * (1.0 + phi / 60.0);
+    let profile = profile(&[0.0, 45.0, 90.0], &[0.0, 90.0, 180.0], candela);
+    let theta = DVec3::Y.angle_between(LUMINAIRE).to_degrees();
+    let phi = 180.0 + (-LUMINAIRE.z).atan2(LUMINAIRE.x).to_degrees() - f64::from(TURN);
+    luminaire(desc, DVec3::NEG_Y, TURN, profile, candela(theta, phi.min(360.0 - phi)))
+}
+
+/// A function of two angles as a table. If it is linear in each, the table is the function.
+fn profile(vertical: &[f32], horizontal: &[f32], candela: impl Fn(f64, f64) -> f64) -> IesProfile {
+    let column = |&phi: &f32| vertical.iter().map(move |&theta| (theta, phi)).collect::<Vec<_>>();
+    let places = horizontal.iter().flat_map(column);
+    let candela = places.map(|(theta, phi)| candela(theta.into(), phi.into()) as f32).collect();
+    IesProfile::new(vertical.to_vec(), horizontal.to_vec(), candela).expect("the angles ascend")
+}
+
+/// A picture twice as wide as high, thrown from the side, that is linear between the middles of its pixels.
+fn projector(desc: &mut SceneDesc) -> f64 {
+    let [position, look_at, up] = [[0.7, 1.4, -0.5], [-0.1, 0.0, 0.08], [0.0, 1.0, 0.0]];
+    let mut image = Image::new(4, 2);
+    let value = |x: f64, y: f64| 1.0 + 0.5 * x + 2.0 * y;
+    for (x, y) in (0..2).flat_map(|y| (0..4).map(move |x| (x, y))) {
+        image.set_pixel(x, y, [value(x.into(), y.into()) as f32; 3]);
+    }
+    let (file, image) = (String::new(), Some(Arc::new(image)));
+    desc.light.projector.push(ProjectorLight { file, position, look_at, up, fov: 60.0, scale: 3.0, image });
+    let [p, at, up] = [position, look_at, up].map(|v: [f32; 3]| DVec3::from(v.map(f64::from)));
+    let forward = (at - p).normalize();
+    let right = forward.cross(up).normalize();
+    // Where the origin is, in pixels from the middle of the first: half the picture is as wide as the tangent of 30°.
+    let along = |axis: DVec3| (-p).dot(axis) / (-p).dot(forward) * 3.0_f64.sqrt();
+    let (x, y) = (2.0 + 2.0 * along(right) - 0.5, 1.0 - 2.0 * along(right.cross(forward)) - 0.5);
+    debug_assert!((0.0..3.0).contains(&x) && (0.0..1.0).contains(&y), "{x}, {y} is beyond the pixels' middles");
+    3.0 * value(x, y) * p.y / p.length().powi(3)
 }
 
 /// Lamps of all kinds at once: whichever is asked, the sum is that of all.

@@ -1,13 +1,18 @@
-//! Scenes whose picture is known beforehand: every pixel looks at the same point and has the same luminance.
+//! Scenes whose picture is known beforehand: the luminance that all its pixels have, as they look at the same point, or that
+//! they have in the mean.
 
 pub mod build;
+mod facets;
+mod facing;
 mod far;
 mod glass;
 mod lamps;
 mod room;
+mod sky;
 
 use std::num::NonZeroUsize;
 use std::ops::Range;
+use std::sync::OnceLock;
 
 use crate::color::luminance;
 use crate::desc::{RenderDesc, SceneDesc};
@@ -18,16 +23,16 @@ use crate::sampler::SamplerKind;
 use crate::scene::Scene;
 use crate::testing::Estimate;
 
-/// A scene with the luminance that all its pixels have.
+/// A scene with the luminance of its picture.
 #[derive(Clone, Debug)]
 pub struct KnownScene {
     /// What it is.
     pub name: String,
-    /// The scene; its camera looks through one point of it.
+    /// The scene.
     pub desc: SceneDesc,
     /// The most edges of a path.
     pub max_depth: u32,
-    /// The luminance of every pixel.
+    /// The mean luminance of a square picture.
     pub expected: f64,
     /// Whether surfaces' own directions find the light. Otherwise only integrators that sample lights see it.
     pub by_chance: bool,
@@ -35,7 +40,13 @@ pub struct KnownScene {
 
 /// All of them.
 pub fn all() -> Vec<KnownScene> {
-    [room::scenes(), glass::scenes(), lamps::scenes(), far::scenes()].concat()
+    /// Some of the numbers take a while to compute: once is enough.
+    static ALL: OnceLock<Vec<KnownScene>> = OnceLock::new();
+    let build = || {
+        let near = [room::scenes(), glass::scenes(), facets::scenes(), lamps::scenes(), facing::scenes()];
+        [near.concat(), far::scenes(), sky::scenes()].concat()
+    };
+    ALL.get_or_init(build).clone()
 }
 
 impl KnownScene {
@@ -51,8 +62,8 @@ impl KnownScene {
     /// Pixels along a side of the pictures that are rendered.
     const SIDE: u32 = 6;
 
-    /// Renders a small picture for each seed. All pixels estimate the same number, and independently, also with Sobol
-    /// points, which each pixel shifts by random numbers of its own: so their scatter tells the error of their mean.
+    /// Renders a small picture for each of at least two seeds. Pixels are independent, also with Sobol points, which each
+    /// pixel shifts by random numbers of its own: so the scatter of each from seed to seed tells the error of their mean.
     ///
     /// # Errors
     /// If the scene cannot be built, or samples were no numbers.
@@ -64,7 +75,7 @@ impl KnownScene {
         seeds: Range<u64>,
     ) -> Result<Estimate, String> {
         let scene = Scene::build(&self.desc).map_err(|problems| format!("{problems:?}"))?;
-        let mut pixels = Vec::new();
+        let mut pictures = Vec::new();
         for seed in seeds {
             let (width, height, max_depth) = (Self::SIDE, Self::SIDE, self.max_depth);
             let plain = RenderDesc { width, height, spp, max_depth, seed, ..RenderDesc::default() }.plain();
@@ -75,9 +86,9 @@ impl KnownScene {
                 return Err("samples are no numbers".to_owned());
             }
             let mean = |sum: &PixelSum| luminance(sum.mean().map(f64::from));
-            pixels.extend(render.film().tiles().iter().flat_map(Tile::pixels).map(|(_, sum)| mean(sum)));
+            pictures.push(render.film().tiles().iter().flat_map(Tile::pixels).map(|(_, sum)| mean(sum)).collect());
         }
-        Ok(Estimate::new(&pixels))
+        Ok(Estimate::of_pictures(&pictures))
     }
 
     /// Renders it and compares the luminance with what is known: a z-test at
