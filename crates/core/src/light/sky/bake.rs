@@ -29,15 +29,17 @@ pub struct SunDisk {
     pub direction: Vec3,
     /// Half the angle that it fills, radians.
     pub angular_radius: f32,
-    /// Radiance of the disk, reddened by the air. Times its [`solid_angle`](Self::solid_angle) it is irradiance.
+    /// Radiance of the disk, reddened by the air. Times its [`projected_solid_angle`](Self::projected_solid_angle) it is
+    /// irradiance.
     pub radiance: Rgb,
 }
 
 impl SunDisk {
-    /// Solid angle of the disk, sr: 4π sin²(α / 2), which keeps its digits for a small radius α.
-    pub fn solid_angle(&self) -> f32 {
-        let sin = libm::sinf(0.5 * self.angular_radius);
-        4.0 * std::f32::consts::PI * sin * sin
+    /// What the disk counts for on a surface that faces its middle, sr: the integral of cos θ over it, π sin² α for a
+    /// radius α.
+    pub fn projected_solid_angle(&self) -> f32 {
+        let sin = libm::sinf(self.angular_radius);
+        std::f32::consts::PI * sin * sin
     }
 }
 
@@ -160,7 +162,7 @@ impl Painter {
             angular_radius: 0.5 * desc.sun_size.to_radians(),
             radiance: Rgb([0.0; 3]),
         };
-        let radiance = Rgb(irradiance.map(|c| (c / f64::from(disk.solid_angle())) as f32));
+        let radiance = Rgb(irradiance.map(|c| (c / f64::from(disk.projected_solid_angle())) as f32));
         (radiance.0 != [0.0; 3]).then_some(SunDisk { radiance, ..disk })
     }
 }

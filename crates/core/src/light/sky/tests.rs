@@ -34,9 +34,12 @@ fn diffuse(sky: &Sky) -> [f64; 3] {
     sum
 }
 
-/// Irradiance of the sun's disk on a plane that faces it.
+/// Irradiance of the sun's disk on a plane that faces it: cos θ over the disk.
 fn direct(sky: &Sky) -> [f64; 3] {
-    sky.sun.map_or([0.0; 3], |sun| sun.radiance.0.map(|c| f64::from(c * sun.solid_angle())))
+    sky.sun.map_or([0.0; 3], |sun| {
+        let projected = PI * f64::from(sun.angular_radius).sin().powi(2);
+        sun.radiance.0.map(|c| f64::from(c) * projected)
+    })
 }
 
 fn problems(desc: &SkyDesc) -> Vec<Problem> {
