@@ -146,7 +146,7 @@ fn error(a: &Image, b: &Image) -> f64 {
 }
 
 fn matte(albedo: f32) -> MaterialDesc {
-    MaterialDesc::Lambertian(Lambertian { albedo: Rgb::grey(albedo) })
+    MaterialDesc::Lambertian(Lambertian { albedo: Rgb::grey(albedo).into() })
 }
 
 /// A floor with balls below many small lamps, all together as bright, of which some are much brighter than others.
@@ -202,7 +202,8 @@ fn garden(image: Image) -> SceneDesc {
     let image = ImageEnvironment { file: String::new(), rotation: 0.0, scale: 1.0, image: Some(Arc::new(image)) };
     let mut desc = hall(0);
     desc.environment = EnvironmentDesc::Image(image);
-    desc.material.insert("metal".to_owned(), MaterialDesc::Metal(Metal { albedo: Rgb::grey(0.8), roughness: 0.3 }));
+    desc.material
+        .insert("metal".to_owned(), MaterialDesc::Metal(Metal { albedo: Rgb::grey(0.8).into(), roughness: 0.3 }));
     desc.shape.sphere.iter_mut().step_by(2).for_each(|ball| ball.material = Some("metal".to_owned()));
     desc
 }

@@ -18,6 +18,7 @@ use eyebeam_core::camera::CameraDesc;
 use eyebeam_core::desc::{RenderDesc, SceneDesc};
 use eyebeam_core::light::EnvironmentDesc;
 use eyebeam_core::material::MaterialDesc;
+use eyebeam_core::texture::Color;
 
 use crate::vec3::Vec3;
 
@@ -283,12 +284,15 @@ impl Textbook {
                 return Err("the book has no other light than its sky".to_owned());
             }
         };
+        let constant = |color: &Color| {
+            color.rgb().map(|rgb| rgb.0.into()).ok_or_else(|| "this book has no textures yet".to_owned())
+        };
         let mut objects: Vec<Arc<dyn Hittable>> = Vec::new();
         for sphere in &desc.shape.sphere {
             let named = sphere.material.as_ref().and_then(|name| desc.material.get(name)).cloned();
             let material: Arc<dyn Material> = match named.unwrap_or_default() {
-                MaterialDesc::Lambertian(m) => Arc::new(Lambertian { albedo: m.albedo.0.into() }),
-                MaterialDesc::Metal(m) => Arc::new(Metal { albedo: m.albedo.0.into(), fuzz: m.roughness.into() }),
+                MaterialDesc::Lambertian(m) => Arc::new(Lambertian { albedo: constant(&m.albedo)? }),
+                MaterialDesc::Metal(m) => Arc::new(Metal { albedo: constant(&m.albedo)?, fuzz: m.roughness.into() }),
                 MaterialDesc::Dielectric(m) => Arc::new(Dielectric { index_of_refraction: m.eta.into() }),
                 MaterialDesc::Conductor(_) | MaterialDesc::Emissive(_) => {
                     return Err("the book has neither lamps nor facets".to_owned());

@@ -154,7 +154,7 @@ impl From<Sun> for DirectionalLight {
 impl From<Material> for MaterialDesc {
     fn from(material: Material) -> Self {
         match material {
-            Material::Lambertian { albedo } => Self::Lambertian(Lambertian { albedo: Rgb(albedo) }),
+            Material::Lambertian { albedo } => Self::Lambertian(Lambertian { albedo: Rgb(albedo).into() }),
             Material::Metal { albedo, alpha } => Self::Conductor(Conductor {
                 reflectance: Some(Rgb(albedo)),
                 roughness: alpha.sqrt(),

@@ -18,6 +18,7 @@ use crate::light::{EnvironmentDesc, LightsDesc};
 use crate::material::MaterialDesc;
 use crate::sampler::SamplerKind;
 use crate::shape::ShapesDesc;
+use crate::texture::{self, TextureDesc};
 use crate::validate::{Checker, Problem};
 
 /// A scene and how to render it. Everything has a default.
@@ -35,6 +36,8 @@ pub struct SceneDesc {
     pub environment: EnvironmentDesc,
     /// Light from what is no shape.
     pub light: LightsDesc,
+    /// Textures by name: colours that change over a surface.
+    pub texture: BTreeMap<String, TextureDesc>,
     /// Materials by name.
     pub material: BTreeMap<String, MaterialDesc>,
     /// Everything that can be seen.
@@ -142,9 +145,16 @@ impl SceneDesc {
         c.within("camera", |c| self.camera.check(c));
         c.within("environment", |c| self.environment.check(c));
         c.within("light", |c| self.light.check(c));
+        c.within("texture", |c| texture::check(&self.texture, c));
         c.within("material", |c| {
             for (name, material) in &self.material {
-                c.within(name, |c| material.check(c));
+                c.within(name, |c| {
+                    material.check(c);
+                    let (kind, colors) = material.colors();
+                    c.within(kind, |c| {
+                        colors.into_iter().for_each(|(key, color)| texture::check_name(key, color, &self.texture, c));
+                    });
+                });
             }
         });
         c.within("shape", |c| {

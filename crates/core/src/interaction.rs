@@ -1,14 +1,16 @@
 //! A ray's meeting with a surface.
 
 use eyebeam_bvh::{Ray, Slot};
-use glam::Vec3;
+use glam::{Vec2, Vec3};
 
 use crate::color::Spectrum;
 use crate::light::{LightSample, Target};
 use crate::material::{Bsdf, BsdfSample, MaterialDesc};
 use crate::math::{Frame, renormalize};
 use crate::sampler::Sampler;
+use crate::scene::Met;
 use crate::shape::SurfacePoint;
+use crate::texture::{TexturePoint, Textures, TexturesAt};
 
 /// A point of a surface, seen along a ray.
 ///
@@ -25,14 +27,22 @@ pub struct SurfaceInteraction<'s> {
     material: &'s MaterialDesc,
     light: Option<u32>,
     on: Slot,
+    met: Met<'s>,
 }
 
 impl<'s> SurfaceInteraction<'s> {
     /// Where a ray of unit direction `d` met the surface; `light` is its number among the scene's lights if it shines.
     #[inline(always)]
-    pub(crate) fn new(point: SurfacePoint, d: Vec3, material: &'s MaterialDesc, light: Option<u32>, on: Slot) -> Self {
+    pub(crate) fn new(
+        point: SurfacePoint,
+        d: Vec3,
+        material: &'s MaterialDesc,
+        light: Option<u32>,
+        on: Slot,
+        met: Met<'s>,
+    ) -> Self {
         let frame = Frame::from_z(point.ns);
-        Self { point, frame, wo_world: -d, wo: frame.to_local(-d), material, light, on }
+        Self { point, frame, wo_world: -d, wo: frame.to_local(-d), material, light, on, met }
     }
 
     /// Where the surface was met.
@@ -56,7 +66,13 @@ impl<'s> SurfaceInteraction<'s> {
     /// How the surface scatters light here.
     #[inline]
     pub fn bsdf(&self) -> Bsdf {
-        self.material.bsdf()
+        self.material.bsdf(self)
+    }
+
+    /// Coordinates on the shape, as [textures](crate::texture) see them.
+    #[inline]
+    pub fn uv(&self) -> Vec2 {
+        self.met.uv(&self.point)
     }
 
     /// Whether a direction is on the same side of the surface by both normals.
@@ -115,5 +131,13 @@ impl<'s> SurfaceInteraction<'s> {
                 Ray { t_max, apart: [self.left_along(light.wi), on], ..Ray::new(o, to / distance) }
             }
         }
+    }
+}
+
+impl Textures for SurfaceInteraction<'_> {
+    #[inline(never)]
+    fn color(&self, texture: u32) -> Spectrum {
+        let at = TexturePoint { uv: self.uv(), p: self.point.p };
+        TexturesAt { textures: self.met.textures(), at }.color(texture)
     }
 }

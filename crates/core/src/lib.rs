@@ -42,5 +42,6 @@ pub mod scene;
 pub mod shape;
 #[cfg(any(test, feature = "testing"))]
 pub mod testing;
+pub mod texture;
 pub mod validate;
 mod warnings;

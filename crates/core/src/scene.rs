@@ -13,7 +13,8 @@ use crate::film::Ids;
 use crate::interaction::SurfaceInteraction;
 use crate::light::{AreaLight, EnvironmentSampling, Light, Lights};
 use crate::material::MaterialDesc;
-use crate::shape::{Plane, Smooth, SurfacePoint, surface_uv};
+use crate::shape::{MeshUvs, Plane, Smooth, SurfacePoint, sphere_uv};
+use crate::texture::{self, TextureDesc};
 use crate::validate::Problem;
 
 /// How rays find what they hit.
@@ -45,6 +46,7 @@ pub struct Scene {
     object_of: Vec<u32>,
     objects: Vec<Object>,
     materials: Vec<MaterialDesc>,
+    textures: Vec<TextureDesc>,
     lights: Lights,
     camera: CameraDesc,
 }
@@ -59,6 +61,8 @@ struct Object {
     smooth: Option<Smooth>,
     /// If it is a single quad.
     plane: Option<Plane>,
+    /// Coordinates for textures, if the mesh has them.
+    uvs: Option<MeshUvs>,
 }
 
 impl Scene {
@@ -85,6 +89,9 @@ impl Scene {
             index_of.insert(name, materials.len() as u32);
             materials.push(material.clone());
         }
+        let numbers = texture::Numbers::new(&desc.texture);
+        materials.iter_mut().for_each(|material| numbers.resolve(material.colors_mut()));
+        let textures = texture::compile(&desc.texture);
         let (mut primitives, mut object_of, mut objects) = (Vec::new(), Vec::new(), Vec::new());
         for (_, _, shape) in desc.shape.iter() {
             let first = primitives.len();
@@ -98,6 +105,7 @@ impl Scene {
                 first_light: None,
                 smooth: shape.smooth(),
                 plane: shape.plane(),
+                uvs: shape.uvs(),
             });
         }
         let bvh = match options.acceleration {
@@ -113,7 +121,7 @@ impl Scene {
         let (environment, sun) = desc.environment.compile(options.environment);
         let far = desc.light.far().chain(sun).collect();
         let lights = Lights::new(lights, desc.render.light_selection, environment, far);
-        Ok(Self { bvh, object_of, objects, materials, lights, camera: desc.camera.clone() })
+        Ok(Self { bvh, object_of, objects, materials, textures, lights, camera: desc.camera.clone() })
     }
 
     /// The nearest surface that the ray meets; its direction must have length 1.
@@ -134,8 +142,9 @@ impl Scene {
                 SurfacePoint::new(&surface, ray, hit, object.smooth.as_ref(), primitive)
             }
         };
+        let met = Met { scene: self, object, primitive, uv: Vec2::new(hit.u, hit.v) };
         let light = object.first_light.map(|first| first + primitive);
-        SurfaceInteraction::new(point, ray.d, &self.materials[object.material as usize], light, hit.slot())
+        SurfaceInteraction::new(point, ray.d, &self.materials[object.material as usize], light, hit.slot(), met)
     }
 
     /// As [`intersect`](Self::intersect), with what a picture can tell of the surface besides.
@@ -146,8 +155,7 @@ impl Scene {
         // One more than the index; none wraps around to 0.
         let [object, material, instance] =
             [object, self.objects[object as usize].material, hit.instances[0]].map(|index| index.wrapping_add(1));
-        let uv = surface_uv(&self.bvh.surface(&hit, ray.time), &hit, si.point().n);
-        Some(Look { si, t: hit.t, uv, ids: Ids { object, material, instance } })
+        Some(Look { si, t: hit.t, uv: si.uv(), ids: Ids { object, material, instance } })
     }
 
     /// Whether anything is in the way of the ray before its `t_max`.
@@ -170,6 +178,31 @@ impl Scene {
     /// The number of primitives.
     pub fn primitive_count(&self) -> usize {
         self.object_of.len()
+    }
+}
+
+/// Which part of the scene a ray met, for what is asked only of some.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Met<'s> {
+    scene: &'s Scene,
+    object: &'s Object,
+    primitive: u32,
+    /// Coordinates on the primitive.
+    uv: Vec2,
+}
+
+impl<'s> Met<'s> {
+    /// Coordinates on the shape: along the edges of a quad, longitude and latitude on a sphere, what a mesh says, or the weights
+    /// of a triangle's second and third vertex.
+    pub(crate) fn uv(&self, point: &SurfacePoint) -> Vec2 {
+        if point.is_round {
+            return sphere_uv(point.n);
+        }
+        self.object.uvs.as_ref().map_or(self.uv, |uvs| uvs.at(self.primitive, self.uv))
+    }
+
+    pub(crate) fn textures(&self) -> &'s [TextureDesc] {
+        &self.scene.textures
     }
 }
 

@@ -38,6 +38,12 @@ impl Spectrum {
         self.0.x.max(self.0.y).max(self.0.z)
     }
 
+    /// Each lane, from `lo` to `hi`.
+    #[inline]
+    pub fn clamp(self, lo: f32, hi: f32) -> Self {
+        Self(self.0.clamp(Vec4::splat(lo), Vec4::splat(hi)))
+    }
+
     /// `self` at t = 0, `other` at t = 1, mixed evenly between.
     #[inline]
     pub fn lerp(self, other: Self, t: f32) -> Self {

@@ -14,6 +14,7 @@ use serde::{Deserialize, Serialize};
 
 use crate::color::{Rgb, Spectrum};
 use crate::material::LambertianBsdf;
+use crate::texture::{Color, Textures};
 use crate::validate::Checker;
 
 /// A lamp: the side of the normal shines.
@@ -23,26 +24,26 @@ pub struct Emissive {
     /// Emitted radiance, W / (m² sr), not negative.
     pub radiance: Rgb,
     /// Share of arriving light that is scattered back, as by a lambertian surface, 0..1.
-    pub albedo: Rgb,
+    pub albedo: Color,
     /// Whether the side that the normal points away from shines too.
     pub two_sided: bool,
 }
 
 impl Default for Emissive {
     fn default() -> Self {
-        Self { radiance: Rgb::grey(1.0), albedo: Rgb::grey(0.0), two_sided: false }
+        Self { radiance: Rgb::grey(1.0), albedo: Rgb::grey(0.0).into(), two_sided: false }
     }
 }
 
 impl Emissive {
     pub(crate) fn check(&self, c: &mut Checker) {
         c.radiance("radiance", self.radiance);
-        c.albedo("albedo", self.albedo);
+        self.albedo.check_share("albedo", c);
     }
 
     #[inline]
-    pub(crate) fn bsdf(&self) -> LambertianBsdf {
-        LambertianBsdf { albedo: self.albedo.into() }
+    pub(crate) fn bsdf(&self, textures: &impl Textures) -> LambertianBsdf {
+        LambertianBsdf { albedo: self.albedo.share_at(textures) }
     }
 
     #[inline]

@@ -17,6 +17,7 @@ use serde::{Deserialize, Serialize};
 use crate::color::{Rgb, Spectrum};
 use crate::material::BsdfSample;
 use crate::sampling::cosine_hemisphere;
+use crate::texture::{Color, Textures};
 use crate::validate::Checker;
 
 /// Matte: scatters light evenly to all sides.
@@ -24,23 +25,23 @@ use crate::validate::Checker;
 #[serde(deny_unknown_fields, default)]
 pub struct Lambertian {
     /// Share of the light that is not absorbed, 0..1 in each channel.
-    pub albedo: Rgb,
+    pub albedo: Color,
 }
 
 impl Default for Lambertian {
     fn default() -> Self {
-        Self { albedo: Rgb::grey(0.5) }
+        Self { albedo: Rgb::grey(0.5).into() }
     }
 }
 
 impl Lambertian {
     pub(crate) fn check(&self, c: &mut Checker) {
-        c.albedo("albedo", self.albedo);
+        self.albedo.check_share("albedo", c);
     }
 
     #[inline]
-    pub(crate) fn bsdf(&self) -> LambertianBsdf {
-        LambertianBsdf { albedo: self.albedo.into() }
+    pub(crate) fn bsdf(&self, textures: &impl Textures) -> LambertianBsdf {
+        LambertianBsdf { albedo: self.albedo.share_at(textures) }
     }
 }
 
@@ -73,10 +74,11 @@ mod tests {
     use super::*;
     use crate::material::Bsdf;
     use crate::testing::{Reciprocal, check_lobe};
+    use crate::texture::NoTextures;
 
     #[test]
     fn lobe() {
-        let albedo = Rgb([0.9, 0.5, 0.1]);
-        check_lobe(&Bsdf::Lambertian(Lambertian { albedo }.bsdf()), Reciprocal::Yes).unwrap();
+        let albedo = Rgb([0.9, 0.5, 0.1]).into();
+        check_lobe(&Bsdf::Lambertian(Lambertian { albedo }.bsdf(&NoTextures)), Reciprocal::Yes).unwrap();
     }
 }

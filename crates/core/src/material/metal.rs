@@ -28,6 +28,7 @@ use crate::color::{Rgb, Spectrum};
 use crate::material::BsdfSample;
 use crate::math::reflect;
 use crate::sampling::uniform_ball;
+use crate::texture::{Color, Textures};
 use crate::validate::Checker;
 
 /// Mirror (roughness 0) to completely rough metal (roughness 1), which still keeps the mirror's directionality.
@@ -35,7 +36,7 @@ use crate::validate::Checker;
 #[serde(deny_unknown_fields, default)]
 pub struct Metal {
     /// Share of the light that is reflected, 0..1 in each channel.
-    pub albedo: Rgb,
+    pub albedo: Color,
     /// Radius of the ball around the unit mirror direction, 0..1. Below 1e-4 it is a perfect mirror.
     #[schemars(range(min = 0.0, max = 1.0))]
     pub roughness: f32,
@@ -43,19 +44,19 @@ pub struct Metal {
 
 impl Default for Metal {
     fn default() -> Self {
-        Self { albedo: Rgb::grey(0.8), roughness: 0.0 }
+        Self { albedo: Rgb::grey(0.8).into(), roughness: 0.0 }
     }
 }
 
 impl Metal {
     pub(crate) fn check(&self, c: &mut Checker) {
-        c.albedo("albedo", self.albedo);
+        self.albedo.check_share("albedo", c);
         c.in_range("roughness", self.roughness, 0.0, 1.0);
     }
 
     #[inline]
-    pub(crate) fn bsdf(&self) -> MetalBsdf {
-        MetalBsdf { albedo: self.albedo.into(), roughness: self.roughness }
+    pub(crate) fn bsdf(&self, textures: &impl Textures) -> MetalBsdf {
+        MetalBsdf { albedo: self.albedo.share_at(textures), roughness: self.roughness }
     }
 }
 
@@ -122,19 +123,20 @@ mod tests {
     use super::*;
     use crate::material::Bsdf;
     use crate::testing::{Reciprocal, check_lobe};
+    use crate::texture::NoTextures;
 
     #[test]
     fn lobe() {
         for roughness in [0.1, 0.33, 0.66, 1.0] {
-            let metal = Metal { albedo: Rgb([0.9, 0.6, 0.2]), roughness };
-            check_lobe(&Bsdf::Metal(metal.bsdf()), Reciprocal::No).unwrap();
+            let metal = Metal { albedo: Rgb([0.9, 0.6, 0.2]).into(), roughness };
+            check_lobe(&Bsdf::Metal(metal.bsdf(&NoTextures)), Reciprocal::No).unwrap();
         }
     }
 
     #[test]
     fn roughness_0_is_a_mirror() {
         let wo = Vec3::new(0.6, 0.0, 0.8);
-        let sample = Metal::default().bsdf().sample(wo, 0.9, Vec2::new(0.1, 0.7)).unwrap();
+        let sample = Metal::default().bsdf(&NoTextures).sample(wo, 0.9, Vec2::new(0.1, 0.7)).unwrap();
         assert!(sample.delta);
         assert_eq!(sample.wi, Vec3::new(-0.6, 0.0, 0.8));
     }

@@ -17,6 +17,7 @@ use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 use crate::color::Spectrum;
+use crate::texture::{Color, Textures};
 use crate::validate::Checker;
 
 pub use conductor::{Conductor, ConductorBsdf};
@@ -61,15 +62,36 @@ impl MaterialDesc {
         }
     }
 
-    /// The lobe that scatters light here.
+    /// The lobe that scatters light at a point, where `textures` have the colours that they are asked for.
     #[inline]
-    pub fn bsdf(&self) -> Bsdf {
+    pub fn bsdf(&self, textures: &impl Textures) -> Bsdf {
         match self {
-            Self::Lambertian(m) => Bsdf::Lambertian(m.bsdf()),
-            Self::Metal(m) => Bsdf::Metal(m.bsdf()),
+            Self::Lambertian(m) => Bsdf::Lambertian(m.bsdf(textures)),
+            Self::Metal(m) => Bsdf::Metal(m.bsdf(textures)),
             Self::Conductor(m) => Bsdf::Conductor(m.bsdf()),
             Self::Dielectric(m) => Bsdf::Dielectric(m.bsdf()),
-            Self::Emissive(m) => Bsdf::Lambertian(m.bsdf()),
+            Self::Emissive(m) => Bsdf::Lambertian(m.bsdf(textures)),
+        }
+    }
+
+    /// The key of its kind, and those of its colours that may be textures, by their keys.
+    pub(crate) fn colors(&self) -> (&'static str, Vec<(&'static str, &Color)>) {
+        match self {
+            Self::Lambertian(m) => ("lambertian", vec![("albedo", &m.albedo)]),
+            Self::Metal(m) => ("metal", vec![("albedo", &m.albedo)]),
+            Self::Conductor(_) => ("conductor", vec![]),
+            Self::Dielectric(_) => ("dielectric", vec![]),
+            Self::Emissive(m) => ("emissive", vec![("albedo", &m.albedo)]),
+        }
+    }
+
+    /// The same colours.
+    pub(crate) fn colors_mut(&mut self) -> Vec<&mut Color> {
+        match self {
+            Self::Lambertian(m) => vec![&mut m.albedo],
+            Self::Metal(m) => vec![&mut m.albedo],
+            Self::Emissive(m) => vec![&mut m.albedo],
+            Self::Conductor(_) | Self::Dielectric(_) => vec![],
         }
     }
 

@@ -15,7 +15,7 @@
 use std::sync::Arc;
 
 use eyebeam_bvh::{Primitive, Triangle};
-use glam::{DVec3, Vec3};
+use glam::{DVec3, Vec2, Vec3};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
@@ -40,6 +40,9 @@ pub struct MeshDesc {
     /// A normal at each vertex, of any length, if the mesh shall look round; else its triangles look flat.
     #[serde(deserialize_with = "arrays")]
     pub normals: Vec<[f32; 3]>,
+    /// Coordinates for textures at each vertex.
+    #[serde(deserialize_with = "arrays")]
+    pub uvs: Vec<[f32; 2]>,
     /// Name of a material; grey matte if absent.
     pub material: Option<String>,
     /// What is in the file, once a reader has loaded it.
@@ -56,6 +59,25 @@ pub struct MeshData {
     pub triangles: Vec<[u32; 3]>,
     /// A normal at each vertex, or none at all.
     pub normals: Vec<[f32; 3]>,
+    /// Coordinates for textures at each vertex, or none at all.
+    pub uvs: Vec<[f32; 2]>,
+}
+
+/// Coordinates for textures.
+#[derive(Clone, Debug)]
+pub(crate) struct MeshUvs {
+    triangles: Arc<[[u32; 3]]>,
+    /// At each vertex.
+    uvs: Arc<[[f32; 2]]>,
+}
+
+impl MeshUvs {
+    /// At the point of a triangle where its second and third vertex have these weights.
+    pub(crate) fn at(&self, triangle: u32, weights: Vec2) -> Vec2 {
+        let corners = self.triangles.get(triangle as usize).copied().unwrap_or_default();
+        let [a, b, c] = corners.map(|i| self.uvs.get(i as usize).copied().map_or(Vec2::ZERO, Vec2::from));
+        a * (1.0 - weights.x - weights.y) + b * weights.x + c * weights.y
+    }
 }
 
 /// A mesh, wherever it comes from.
@@ -63,13 +85,16 @@ struct Mesh<'a> {
     vertices: &'a [[f32; 3]],
     triangles: &'a [[u32; 3]],
     normals: &'a [[f32; 3]],
+    uvs: &'a [[f32; 2]],
 }
 
 impl MeshDesc {
     fn mesh(&self) -> Mesh<'_> {
         match self.data.as_deref() {
-            Some(MeshData { vertices, triangles, normals }) => Mesh { vertices, triangles, normals },
-            None => Mesh { vertices: &self.vertices, triangles: &self.triangles, normals: &self.normals },
+            Some(MeshData { vertices, triangles, normals, uvs }) => Mesh { vertices, triangles, normals, uvs },
+            None => {
+                Mesh { vertices: &self.vertices, triangles: &self.triangles, normals: &self.normals, uvs: &self.uvs }
+            }
         }
     }
 
@@ -95,20 +120,27 @@ impl<'a> Mesh<'a> {
     }
 
     fn check(&self, c: &mut Checker) {
-        let is_finite = |v: &[f32; 3]| v.iter().copied().all(Checker::is_finite);
+        let is_finite = |v: &[f32]| v.iter().copied().all(Checker::is_finite);
         c.within("vertices", |c| {
-            for (i, vertex) in self.vertices.iter().enumerate().filter(|(_, v)| !is_finite(v)) {
+            for (i, vertex) in self.vertices.iter().enumerate().filter(|(_, v)| !is_finite(*v)) {
                 let hint = "numbers up to 1e15 in size are allowed".to_owned();
                 c.problem(i, format!("vertex {i} is {vertex:?}"), Some(hint));
             }
         });
         let count = self.vertices.len();
-        if !self.normals.is_empty() && self.normals.len() != count {
-            let message = format!("there are {} normals for {count} vertices", self.normals.len());
-            c.problem("normals", message, Some("give one for each vertex, or none".to_owned()));
+        for (key, given) in [("normals", self.normals.len()), ("uvs", self.uvs.len())] {
+            if given != 0 && given != count {
+                let message = format!("there are {given} {key} for {count} vertices");
+                c.problem(key, message, Some("give one for each vertex, or none".to_owned()));
+            }
         }
+        c.within("uvs", |c| {
+            for (i, uv) in self.uvs.iter().enumerate().filter(|(_, uv)| !is_finite(*uv)) {
+                c.problem(i, format!("coordinates {i} are {uv:?}"), Some("use finite numbers".to_owned()));
+            }
+        });
         c.within("normals", |c| {
-            for (i, normal) in self.normals.iter().enumerate().filter(|(_, n)| !is_finite(n)) {
+            for (i, normal) in self.normals.iter().enumerate().filter(|(_, n)| !is_finite(*n)) {
                 c.problem(i, format!("normal {i} is {normal:?}"), Some("use finite numbers".to_owned()));
             }
         });
@@ -129,6 +161,7 @@ impl ShapeDesc for MeshDesc {
             ("vertices", self.vertices.is_empty()),
             ("triangles", self.triangles.is_empty()),
             ("normals", self.normals.is_empty()),
+            ("uvs", self.uvs.is_empty()),
         ];
         let list = lists.iter().find(|(_, is_empty)| !is_empty).map(|(name, _)| name);
         match (&self.file, list) {
@@ -158,5 +191,11 @@ impl ShapeDesc for MeshDesc {
     fn smooth(&self) -> Option<Smooth> {
         let mesh = self.mesh();
         (!mesh.normals.is_empty()).then(|| Smooth::new(mesh.triangles.to_vec(), mesh.normals))
+    }
+
+    fn uvs(&self) -> Option<MeshUvs> {
+        let mesh = self.mesh();
+        let of_vertices = || MeshUvs { triangles: mesh.triangles.into(), uvs: mesh.uvs.into() };
+        (!mesh.uvs.is_empty()).then(of_vertices)
     }
 }

@@ -10,18 +10,20 @@ mod smooth;
 mod sphere;
 
 use eyebeam_bvh::{Bvh, Hit, Primitive, Ray, Surface};
-use glam::{Vec2, Vec3};
+use glam::Vec2;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 use crate::validate::Checker;
 
+pub(crate) use mesh::MeshUvs;
 pub use mesh::{MeshData, MeshDesc};
 pub(crate) use plane::Plane;
 pub use point::SurfacePoint;
 pub use quad::QuadDesc;
 pub(crate) use smooth::Smooth;
 pub use sphere::SphereDesc;
+pub(crate) use sphere::uv as sphere_uv;
 
 /// All shapes of a scene: `[[shape.KIND]]` adds one.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize, JsonSchema)]
@@ -72,6 +74,11 @@ pub(crate) trait ShapeDesc {
         None
     }
 
+    /// Coordinates for textures that it says itself.
+    fn uvs(&self) -> Option<MeshUvs> {
+        None
+    }
+
     /// Its plane, if it is one.
     fn plane(&self) -> Option<Plane> {
         None
@@ -93,14 +100,5 @@ impl SurfacePoint {
                 flat.shaded(shading.ns, shading.lift)
             }
         }
-    }
-}
-
-/// Where on its shape a point of normal `n` is, each in 0..1: along the edges `u` and `v` of a quad, weights of the second
-/// and third vertex of a triangle, longitude and latitude on a sphere.
-pub(crate) fn surface_uv(surface: &Surface, hit: &Hit, n: Vec3) -> Vec2 {
-    match surface {
-        Surface::Sphere(_) => sphere::uv(n),
-        Surface::Flat { .. } => Vec2::new(hit.u, hit.v),
     }
 }

@@ -57,7 +57,7 @@ pub(super) fn point(sphere: &Sphere, ray: &Ray, hit: &Hit) -> SurfacePoint {
 
 /// Longitude and latitude of a unit normal, each in 0..1: eastwards from −x over +z, as seen from above against the clock,
 /// and from the lowest point to the highest.
-pub(super) fn uv(n: Vec3) -> Vec2 {
+pub(crate) fn uv(n: Vec3) -> Vec2 {
     let longitude = 0.5 + libm::atan2f(-n.z, n.x) / (2.0 * PI);
     let latitude = 0.5 + libm::atan2f(n.y, n.xz().length()) / PI;
     Vec2::new(longitude, latitude)

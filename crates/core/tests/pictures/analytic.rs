@@ -8,6 +8,7 @@ use eyebeam_core::material::{MaterialDesc, Metal};
 use eyebeam_core::sampler::SamplerKind;
 use eyebeam_core::shape::QuadDesc;
 use eyebeam_core::testing::{scenes, z_test};
+use eyebeam_core::texture::NoTextures;
 use glam::Vec3;
 
 use crate::setup::*;
@@ -86,7 +87,7 @@ fn integral(metal: &MaterialDesc, wo: Vec3) -> f64 {
             let (sin, cos) = (2.0 * PI * (f64::from(j) + 0.5) / f64::from(N)).sin_cos();
             let r = (1.0 - z * z).sqrt();
             let wi = Vec3::new((r * cos) as f32, (r * sin) as f32, z as f32);
-            sum += f64::from(metal.bsdf().eval(wo, wi).to_rgb()[0]);
+            sum += f64::from(metal.bsdf(&NoTextures).eval(wo, wi).to_rgb()[0]);
         }
     }
     sum * 4.0 * PI / f64::from(N * N)
@@ -97,7 +98,7 @@ fn integral(metal: &MaterialDesc, wo: Vec3) -> f64 {
 fn rough_metal_loses_what_falls_below() {
     for roughness in [0.3_f32, 0.7, 1.0] {
         for height in [0.05_f32, 0.3, 1.0, 4.0] {
-            let metal = MaterialDesc::Metal(Metal { albedo: Rgb::grey(1.0), roughness });
+            let metal = MaterialDesc::Metal(Metal { albedo: Rgb::grey(1.0).into(), roughness });
             let mut desc = scene(WHITE, metal.clone(), look([1.0, height, 0.0], [0.0; 3], NARROW));
             desc.shape.quad.push(floor(0.0, 100.0));
             let wo = Vec3::new(1.0, 0.0, height).normalize();

@@ -10,6 +10,7 @@ use eyebeam_core::desc::SceneDesc;
 use eyebeam_core::film::Image;
 use eyebeam_core::light::{EnvironmentDesc, IesProfile};
 use eyebeam_core::shape::MeshData;
+use eyebeam_core::texture::TextureDesc;
 
 use crate::error::{At, Error, FileError};
 use crate::ies::read_ies;
@@ -48,6 +49,11 @@ pub(super) fn load<'a>(desc: &mut SceneDesc, folder_of: impl Fn(&[String]) -> Op
     }
     for (i, light) in desc.light.projector.iter_mut().enumerate() {
         light.image = loader.get(&mut images, path(&["light", "projector"], Some(i)), &light.file);
+    }
+    for (name, texture) in &mut desc.texture {
+        if let TextureDesc::Image(texture) = texture {
+            texture.image = loader.get(&mut images, path(&["texture", name, "image"], None), &texture.file);
+        }
     }
     let mut profiles = Cache::default();
     for (i, light) in desc.light.ies.iter_mut().enumerate() {
@@ -98,12 +104,15 @@ impl Asset for IesProfile {
 
 impl Asset for MeshData {
     fn read(path: &Path) -> Result<(Self, Vec<Warning>), Error> {
-        let ply::MeshData { vertices, normals, triangles, .. } = read_ply(path)?;
-        Ok((Self { vertices, triangles, normals }, Vec::new()))
+        let ply::MeshData { vertices, normals, uvs, triangles } = read_ply(path)?;
+        Ok((Self { vertices, triangles, normals, uvs }, Vec::new()))
     }
 
     fn bytes(&self) -> usize {
-        size_of_val(&*self.vertices) + size_of_val(&*self.triangles) + size_of_val(&*self.normals)
+        size_of_val(&*self.vertices)
+            + size_of_val(&*self.triangles)
+            + size_of_val(&*self.normals)
+            + size_of_val(&*self.uvs)
     }
 }
 

@@ -4,6 +4,7 @@ use eyebeam_core::desc::{RenderDesc, SceneDesc};
 use eyebeam_core::film::Image;
 use eyebeam_core::light::{EnvironmentDesc, IesProfile};
 use eyebeam_core::shape::MeshData;
+use eyebeam_core::texture::TextureDesc;
 use sha2::{Digest, Sha256};
 
 /// SHA-256 of a scene but for its `render` settings: of its JSON, then of the numbers in each file in the order in which
@@ -17,6 +18,11 @@ pub(super) fn scene_hash(desc: &SceneDesc) -> String {
         map.image.iter().for_each(|image| hash.image(image));
     }
     desc.light.projector.iter().filter_map(|l| l.image.as_ref()).for_each(|image| hash.image(image));
+    for texture in desc.texture.values() {
+        if let TextureDesc::Image(texture) = texture {
+            texture.image.iter().for_each(|image| hash.image(image));
+        }
+    }
     desc.light.ies.iter().filter_map(|l| l.profile.as_ref()).for_each(|profile| hash.profile(profile));
     desc.shape.mesh.iter().filter_map(|m| m.data.as_ref()).for_each(|mesh| hash.mesh(mesh));
     hash.0.finalize().iter().map(|byte| format!("{byte:02x}")).collect()
@@ -47,6 +53,7 @@ impl Hash {
     fn mesh(&mut self, mesh: &MeshData) {
         self.floats(mesh.vertices.as_flattened());
         self.floats(mesh.normals.as_flattened());
+        self.floats(mesh.uvs.as_flattened());
         self.numbers(mesh.triangles.as_flattened().iter().map(|i| i.to_le_bytes()));
     }
 }
@@ -57,6 +64,7 @@ mod tests {
 
     use eyebeam_core::light::{IesLight, ImageEnvironment, ProjectorLight};
     use eyebeam_core::shape::MeshDesc;
+    use eyebeam_core::texture::ImageTexture;
     use serde_json::{from_value, json};
 
     use super::*;
@@ -91,19 +99,24 @@ mod tests {
         };
         let with_mesh = |value| {
             let vertices = vec![[0.0; 3], [1.0, 0.0, 0.0], [0.0, value, 0.0]];
-            let data = MeshData { vertices, triangles: vec![[0, 1, 2]], normals: Vec::new() };
+            let data = MeshData { vertices, triangles: vec![[0, 1, 2]], ..MeshData::default() };
             let mut desc = SceneDesc::default();
             let mesh = MeshDesc { file: Some("a.ply".to_owned()), data: Some(Arc::new(data)), ..MeshDesc::default() };
             desc.shape.mesh.push(mesh);
             desc
         };
-        let kinds: [&dyn Fn(f32) -> SceneDesc; 4] = [&with_sky, &with_slide, &with_lamp, &with_mesh];
+        let with_texture = |value| {
+            let texture: ImageTexture = from_value(json!({ "file": "a.png" })).unwrap();
+            let texture = TextureDesc::Image(ImageTexture { image: image(value), ..texture });
+            SceneDesc { texture: [("a".to_owned(), texture)].into(), ..SceneDesc::default() }
+        };
+        let kinds: [&dyn Fn(f32) -> SceneDesc; 5] = [&with_sky, &with_slide, &with_lamp, &with_mesh, &with_texture];
         let hashes = kinds.iter().flat_map(|with| [with(1.0), with(2.0)].map(|desc| scene_hash(&desc)));
         let mut hashes: Vec<_> = hashes.collect();
         assert_eq!(scene_hash(&with_mesh(1.0)), hashes[6]);
         hashes.sort();
         hashes.dedup();
-        assert_eq!(hashes.len(), 8);
+        assert_eq!(hashes.len(), 10);
     }
 
     /// What a file says is not told again in words.

@@ -65,11 +65,11 @@ pub(super) fn add_sphere(desc: &mut SceneDesc, center: [f32; 3], radius: f32, na
 
 /// Matte, of a grey albedo.
 pub fn matte(albedo: f32) -> MaterialDesc {
-    MaterialDesc::Lambertian(Lambertian { albedo: Rgb::grey(albedo) })
+    MaterialDesc::Lambertian(Lambertian { albedo: Rgb::grey(albedo).into() })
 }
 
 pub(super) fn metal(albedo: f32, roughness: f32) -> MaterialDesc {
-    MaterialDesc::Metal(Metal { albedo: Rgb::grey(albedo), roughness })
+    MaterialDesc::Metal(Metal { albedo: Rgb::grey(albedo).into(), roughness })
 }
 
 /// A lamp that shines on the side of its normal.

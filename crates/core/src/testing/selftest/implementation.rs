@@ -10,6 +10,7 @@ use crate::light::select::{LightBounds, LightSelection, LightSelector};
 use crate::material::MaterialDesc;
 use crate::sampler::Samples;
 use crate::testing::{CameraRays, LightChoice, LightSampling, Lobe, Numbers, PixelFilter, lights_of};
+use crate::texture::NoTextures;
 
 /// The parts of a renderer, each Eyebeam's own if nothing else is said.
 pub trait Implementation {
@@ -30,7 +31,7 @@ pub trait Implementation {
 
     /// How a material scatters light.
     fn lobe(&self, material: &MaterialDesc) -> Box<dyn Lobe> {
-        Box::new(material.bsdf())
+        Box::new(material.bsdf(&NoTextures))
     }
 
     /// All lights of a scene, one by one.

@@ -88,8 +88,8 @@ fn lobes() -> impl Iterator<Item = (&'static str, MaterialDesc, Reciprocal)> {
         ..Conductor::default()
     };
     [
-        ("matte", MaterialDesc::Lambertian(Lambertian { albedo: Rgb([0.9, 0.5, 0.1]) }), Reciprocal::Yes),
-        ("fuzzy metal", MaterialDesc::Metal(Metal { albedo: Rgb::grey(0.9), roughness: 0.4 }), Reciprocal::No),
+        ("matte", MaterialDesc::Lambertian(Lambertian { albedo: Rgb([0.9, 0.5, 0.1]).into() }), Reciprocal::Yes),
+        ("fuzzy metal", MaterialDesc::Metal(Metal { albedo: Rgb::grey(0.9).into(), roughness: 0.4 }), Reciprocal::No),
         ("rough metal", MaterialDesc::Conductor(gold), Reciprocal::Yes),
         ("rough glass", MaterialDesc::Dielectric(Dielectric { eta: 1.5, roughness: 0.5 }), Reciprocal::Yes),
     ]

@@ -1,0 +1,94 @@
+//! Where on a texture a point of a surface lies.
+
+use glam::Vec3;
+use schemars::JsonSchema;
+use serde::{Deserialize, Serialize};
+
+use crate::array::array;
+use crate::math::sin_cos_turns;
+use crate::texture::TexturePoint;
+use crate::validate::Checker;
+
+/// By what a texture is laid out, and how it is turned, stretched and moved: first the rotation, then the scale, then the
+/// offset.
+///
+/// ```toml
+/// [texture.planks.wood]
+/// mapping = { space = "world", rotation = 90, scale = [2, 2, 0.2] }
+/// ```
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields, default)]
+pub struct Mapping {
+    /// Coordinates on the shape or places in the world; each texture has a default.
+    pub space: Option<Space>,
+    /// Turns about the third axis, counter-clockwise, degrees.
+    pub rotation: f32,
+    /// Factors on the coordinates: at 2 everything is half as large.
+    #[serde(deserialize_with = "array")]
+    pub scale: [f32; 3],
+    /// Added in the end.
+    #[serde(deserialize_with = "array")]
+    pub offset: [f32; 3],
+}
+
+/// What coordinates are.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
+#[serde(rename_all = "kebab-case")]
+pub enum Space {
+    /// On the shape: each 0..1 over a quad, a sphere or as a mesh says; the third is 0.
+    Uv,
+    /// In the world, metres.
+    World,
+}
+
+impl Default for Mapping {
+    fn default() -> Self {
+        Self { space: None, rotation: 0.0, scale: [1.0; 3], offset: [0.0; 3] }
+    }
+}
+
+impl Mapping {
+    pub(super) fn check(&self, c: &mut Checker) {
+        c.within("mapping", |c| {
+            c.in_range("rotation", self.rotation, -1e4, 1e4);
+            c.finite("scale", &self.scale);
+            c.finite("offset", &self.offset);
+        });
+    }
+
+    /// The place on the texture. Finite, whatever the numbers are.
+    #[inline]
+    pub(super) fn place(&self, at: &TexturePoint, default: Space) -> Vec3 {
+        /// Single precision tells nothing apart beyond.
+        const FARTHEST: Vec3 = Vec3::splat(1e9);
+        let p = match self.space.unwrap_or(default) {
+            Space::Uv => at.uv.extend(0.0),
+            Space::World => at.p,
+        };
+        let turned = if self.rotation == 0.0 {
+            p
+        } else {
+            let turns = self.rotation / 360.0;
+            let (sin, cos) = sin_cos_turns(turns - turns.floor());
+            Vec3::new(cos * p.x - sin * p.y, sin * p.x + cos * p.y, p.z)
+        };
+        let place = turned * Vec3::from(self.scale) + Vec3::from(self.offset);
+        place.clamp(-FARTHEST, FARTHEST)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use glam::Vec2;
+
+    #[test]
+    fn turns_stretches_and_moves_in_this_order() {
+        let mapping = Mapping { rotation: 90.0, scale: [2.0, 3.0, 4.0], offset: [1.0, 0.0, 0.0], ..Mapping::default() };
+        let at = TexturePoint { uv: Vec2::new(1.0, 0.0), p: Vec3::new(0.0, 1.0, 1.0) };
+        assert!((mapping.place(&at, Space::Uv) - Vec3::new(1.0, 3.0, 0.0)).length() < 1e-5);
+        assert!((mapping.place(&at, Space::World) - Vec3::new(-1.0, 0.0, 4.0)).length() < 1e-5);
+        let world = Mapping { space: Some(Space::World), ..Mapping::default() };
+        assert_eq!(world.place(&at, Space::Uv), at.p);
+    }
+}

@@ -1,0 +1,286 @@
+//! Textures: colours that change over a surface.
+//!
+//! `[texture.NAME.KIND]` says what a texture is, and its name can stand wherever a material or another texture takes a
+//! colour. Each kind is a pure function of the point of the surface: its place in the world and its coordinates on the shape.
+//!
+//! ```toml
+//! [texture.squares.checker]
+//! even = 0.8
+//! odd = "#264653"
+//!
+//! [material.floor.lambertian]
+//! albedo = "squares"
+//! ```
+
+mod checker;
+mod color;
+mod image;
+mod mapping;
+mod marble;
+mod noise;
+mod perlin;
+mod wood;
+
+use std::collections::BTreeMap;
+
+use glam::{Vec2, Vec3};
+use schemars::JsonSchema;
+use serde::{Deserialize, Serialize};
+
+use crate::color::Spectrum;
+use crate::validate::Checker as Check;
+
+pub use checker::Checker;
+pub use color::{Color, TextureName};
+pub use image::{ImageTexture, Wrap};
+pub use mapping::{Mapping, Space};
+pub use marble::Marble;
+pub use noise::Noise;
+pub use wood::Wood;
+
+/// A texture as a scene states it: `[texture.NAME.KIND]`.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(rename_all = "kebab-case")]
+pub enum TextureDesc {
+    /// A picture.
+    Image(ImageTexture),
+    /// Two colours in turn.
+    Checker(Checker),
+    /// Clouds.
+    Noise(Noise),
+    /// Veins.
+    Marble(Marble),
+    /// Rings.
+    Wood(Wood),
+}
+
+/// Where a texture is looked up.
+#[derive(Clone, Copy, Debug)]
+pub struct TexturePoint {
+    /// Coordinates on the shape.
+    pub uv: Vec2,
+    /// Place in the world, metres.
+    pub p: Vec3,
+}
+
+/// What materials ask for the colours that they do not hold themselves.
+pub trait Textures {
+    /// The colour of a texture at the point where the material is.
+    fn color(&self, texture: u32) -> Spectrum;
+}
+
+/// There are none: every name is black.
+#[derive(Clone, Copy, Debug)]
+pub struct NoTextures;
+
+impl Textures for NoTextures {
+    fn color(&self, _: u32) -> Spectrum {
+        Spectrum::BLACK
+    }
+}
+
+/// All textures of a scene, at one point.
+#[derive(Clone, Copy, Debug)]
+pub struct TexturesAt<'t> {
+    /// In the order of their numbers.
+    pub textures: &'t [TextureDesc],
+    /// Where.
+    pub at: TexturePoint,
+}
+
+impl Textures for TexturesAt<'_> {
+    fn color(&self, texture: u32) -> Spectrum {
+        // The check has found that names exist and that none leads back to itself.
+        self.textures.get(texture as usize).map_or(Spectrum::BLACK, |texture| texture.color(self))
+    }
+}
+
+impl TextureDesc {
+    /// The colour at a point.
+    fn color(&self, textures: &TexturesAt<'_>) -> Spectrum {
+        match self {
+            Self::Image(t) => t.color(&textures.at),
+            Self::Checker(t) => t.color(textures),
+            Self::Noise(t) => t.color(textures),
+            Self::Marble(t) => t.color(textures),
+            Self::Wood(t) => t.color(textures),
+        }
+    }
+
+    pub(crate) fn check(&self, c: &mut Check) {
+        match self {
+            Self::Image(t) => c.within("image", |c| t.check(c)),
+            Self::Checker(t) => c.within("checker", |c| t.check(c)),
+            Self::Noise(t) => c.within("noise", |c| t.check(c)),
+            Self::Marble(t) => c.within("marble", |c| t.check(c)),
+            Self::Wood(t) => c.within("wood", |c| t.check(c)),
+        }
+    }
+
+    /// The key of its kind, and the colours that it is made of, by their keys.
+    pub(crate) fn colors(&self) -> (&'static str, Vec<(&'static str, &Color)>) {
+        match self {
+            Self::Image(_) => ("image", vec![]),
+            Self::Checker(t) => ("checker", vec![("even", &t.even), ("odd", &t.odd)]),
+            Self::Noise(t) => ("noise", vec![("dark", &t.dark), ("light", &t.light)]),
+            Self::Marble(t) => ("marble", vec![("dark", &t.dark), ("light", &t.light)]),
+            Self::Wood(t) => ("wood", vec![("dark", &t.dark), ("light", &t.light)]),
+        }
+    }
+
+    fn colors_mut(&mut self) -> Vec<&mut Color> {
+        match self {
+            Self::Image(_) => vec![],
+            Self::Checker(t) => vec![&mut t.even, &mut t.odd],
+            Self::Noise(t) => vec![&mut t.dark, &mut t.light],
+            Self::Marble(t) => vec![&mut t.dark, &mut t.light],
+            Self::Wood(t) => vec![&mut t.dark, &mut t.light],
+        }
+    }
+}
+
+/// The numbers of textures, by their names.
+#[derive(Clone, Debug)]
+pub(crate) struct Numbers<'d>(BTreeMap<&'d str, u32>);
+
+impl<'d> Numbers<'d> {
+    pub(crate) fn new(textures: &'d BTreeMap<String, TextureDesc>) -> Self {
+        Self(textures.keys().map(String::as_str).zip(0..).collect())
+    }
+
+    /// Notes in colours which textures they name.
+    pub(crate) fn resolve<'c>(&self, colors: impl IntoIterator<Item = &'c mut Color>) {
+        for color in colors {
+            if let Color::Texture(name) = color {
+                name.index = self.0.get(name.name.as_str()).copied().unwrap_or(u32::MAX);
+            }
+        }
+    }
+}
+
+/// Textures by their numbers, that name each other by these.
+pub(crate) fn compile(textures: &BTreeMap<String, TextureDesc>) -> Vec<TextureDesc> {
+    let numbers = Numbers::new(textures);
+    let mut compiled: Vec<_> = textures.values().cloned().collect();
+    compiled.iter_mut().for_each(|texture| numbers.resolve(texture.colors_mut()));
+    compiled
+}
+
+/// Notes names that do not exist, and textures that are made of themselves.
+pub(crate) fn check(textures: &BTreeMap<String, TextureDesc>, c: &mut Check) {
+    for (name, texture) in textures {
+        c.within(name, |c| {
+            texture.check(c);
+            let (kind, colors) = texture.colors();
+            c.within(kind, |c| colors.into_iter().for_each(|(key, color)| check_name(key, color, textures, c)));
+            if let Some(way) = way_back(name, textures) {
+                let message = format!("the texture is made of itself: {}", way.join(" > "));
+                c.problem(kind, message, Some("give one of them a colour instead".to_owned()));
+            }
+        });
+    }
+}
+
+/// Notes a name that no texture has.
+pub(crate) fn check_name(key: &str, color: &Color, textures: &BTreeMap<String, TextureDesc>, c: &mut Check) {
+    let Color::Texture(TextureName { name, .. }) = color else { return };
+    if textures.contains_key(name) {
+        return;
+    }
+    let names: Vec<_> = textures.keys().take(12).map(|name| format!("`{name}`")).collect();
+    let hint = match names[..] {
+        [] => "the scene has no textures; add one as [texture.NAME.KIND], or write a colour".to_owned(),
+        _ => format!("textures are {}", names.join(", ")),
+    };
+    c.problem(key, format!("there is no texture `{name}`"), Some(hint));
+}
+
+/// From a texture over those that it is made of back to it, if there is such a way.
+fn way_back<'d>(start: &'d str, textures: &'d BTreeMap<String, TextureDesc>) -> Option<Vec<&'d str>> {
+    // Breadth first; each texture is visited once.
+    let mut came_from = BTreeMap::new();
+    let mut waiting = std::collections::VecDeque::from([start]);
+    while let Some(name) = waiting.pop_front() {
+        for (_, color) in textures.get(name).map(|texture| texture.colors().1).unwrap_or_default() {
+            let Color::Texture(TextureName { name: next, .. }) = color else { continue };
+            if next == start {
+                let mut way = vec![start, name];
+                while let Some(&before) = came_from.get(way[way.len() - 1]) {
+                    way.push(before);
+                }
+                if name == start {
+                    way.pop();
+                }
+                way.reverse();
+                way.push(start);
+                way.dedup();
+                return Some(if way.len() == 1 { vec![start, start] } else { way });
+            }
+            if textures.contains_key(next) && next != start && !came_from.contains_key(next.as_str()) {
+                came_from.insert(next.as_str(), name);
+                waiting.push_back(next);
+            }
+        }
+    }
+    None
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::color::Rgb;
+
+    fn checker(even: Color, odd: Color) -> TextureDesc {
+        TextureDesc::Checker(Checker { even, odd, ..Checker::default() })
+    }
+
+    fn named(name: &str) -> Color {
+        Color::Texture(TextureName::new(name))
+    }
+
+    fn problems(textures: &[(&str, TextureDesc)]) -> Vec<String> {
+        let textures = textures.iter().map(|(name, texture)| ((*name).to_owned(), texture.clone())).collect();
+        let mut c = Check::default();
+        check(&textures, &mut c);
+        c.into_problems().into_iter().map(|p| format!("{}: {}", p.path.join("."), p.message)).collect()
+    }
+
+    #[test]
+    fn a_texture_can_be_made_of_others() {
+        let white = Color::Rgb(Rgb::grey(1.0));
+        let textures = BTreeMap::from([
+            ("fine".to_owned(), checker(white.clone(), Color::Rgb(Rgb::grey(0.5)))),
+            ("coarse".to_owned(), checker(named("fine"), Color::Rgb(Rgb::grey(0.0)))),
+        ]);
+        let textures = compile(&textures);
+        let color = |p: Vec3| {
+            let at = TexturePoint { uv: Vec2::ZERO, p };
+            TexturesAt { textures: &textures, at }.color(0).to_rgb()[0]
+        };
+        assert_eq!([color(Vec3::splat(0.5)), color(Vec3::new(1.5, 0.5, 0.5))], [1.0, 0.0]);
+    }
+
+    #[test]
+    fn names_that_lead_nowhere_and_in_circles() {
+        let grey = || Color::Rgb(Rgb::grey(0.5));
+        assert_eq!(problems(&[("a", checker(named("b"), grey())), ("b", checker(grey(), grey()))]), [""; 0]);
+        assert_eq!(problems(&[("a", checker(named("x"), grey()))]), ["a.checker.even: there is no texture `x`"]);
+        assert_eq!(
+            problems(&[("a", checker(grey(), named("a")))]),
+            ["a.checker: the texture is made of itself: a > a"]
+        );
+        let ring = [
+            ("a", checker(named("b"), grey())),
+            ("b", checker(named("c"), grey())),
+            ("c", checker(grey(), named("a"))),
+        ];
+        assert_eq!(
+            problems(&ring),
+            [
+                "a.checker: the texture is made of itself: a > b > c > a",
+                "b.checker: the texture is made of itself: b > c > a > b",
+                "c.checker: the texture is made of itself: c > a > b > c",
+            ]
+        );
+    }
+}
