@@ -46,22 +46,23 @@ impl Tree {
         build::tree(lights)
     }
 
-    /// From the root to a light: `choose` is told the running sums of the importances of the four and says which.
+    /// From the root to a light: `choose` is told the importances of the four and where each begins, and all end, if they
+    /// are laid end to end; it says which of the four.
     ///
     /// The one walk there is, so that a sample and a question give the same bits.
     #[inline]
-    fn walk(&self, p: Vec3, n: Vec3, mut choose: impl FnMut([f64; 4], [f64; 4]) -> usize) -> Option<(u32, f64)> {
+    fn walk(&self, p: Vec3, n: Vec3, mut choose: impl FnMut([f64; 4], [f64; 5]) -> usize) -> Option<(u32, f64)> {
         let mut node = self.nodes.last()?;
         let mut pmf = 1.0;
         loop {
             let importances = node.emitters.importances(p, n).to_array().map(f64::from);
             let [a, b, c, d] = importances;
-            let ends = [a, a + b, a + b + c, a + b + c + d];
-            if ends[3] <= 0.0 {
+            let sums = [0.0, a, a + b, a + b + c, a + b + c + d];
+            if sums[4] <= 0.0 {
                 return None;
             }
-            let side = choose(importances, ends) & 3;
-            pmf *= importances[side] / ends[3];
+            let side = choose(importances, sums);
+            pmf *= importances[side] / sums[4];
             match self.nodes.get(node.links[side] as usize) {
                 Some(child) => node = child,
                 None => return Some((!node.links[side], pmf)),
@@ -72,11 +73,11 @@ impl Tree {
     /// The light chosen by `u` in [0, 1), its chance, and the rest of `u`, again in 0..1.
     #[inline]
     pub(super) fn sample(&self, p: Vec3, n: Vec3, mut u: f64) -> Option<(u32, f64, f64)> {
-        let (index, pmf) = self.walk(p, n, |importances, ends| {
-            let x = u * ends[3];
-            // Behind each end that it reaches, if anything is there.
-            let side = ends[..3].iter().map(|&end| usize::from(x >= end && end < ends[3])).sum();
-            u = (x - (ends[side] - importances[side])) / importances[side];
+        let (index, pmf) = self.walk(p, n, |importances, sums| {
+            let x = u * sums[4];
+            // As many as end before it, and have anything behind them.
+            let side = sums[1..4].iter().map(|&end| usize::from(x >= end && end < sums[4])).sum();
+            u = (x - sums[side]) / importances[side];
             side
         })?;
         Some((index, pmf, u))
