@@ -1,14 +1,18 @@
 //! Sharing lights out: the surface area orientation heuristic.
 //!
-//! A group is split by a plane so that Kᵣ (cost(left) + cost(right)) is least, where
+//! Each group is shared out among four, by three splits, of which each takes the part of most lights: such trees are the
+//! least deep, and have the fewest nodes. A group is split by a plane so that Kᵣ (cost(left) + cost(right)) is least, where
 //! cost = intensity · solid angle of the emission · size, and Kᵣ, the group's longest extent over that along the
 //! plane's axis, keeps groups from getting thin. Along each axis twelve bins are tried. Of a large group some lights
 //! stand for all in the bins, so the time goes to sorting the lights from plane to plane: O(n log n).
 //!
 //! Conty Estevez & Kulla 2018, doi:10.1145/3233305, §4.1; Pharr, Jakob & Humphreys 2023, §12.6.3.
 
-use super::emitter::Cluster;
-use super::tree::{Link, Node, Tree};
+use std::mem;
+
+use super::cluster::Cluster;
+use super::emitter::Emitters;
+use super::tree::{Node, Tree};
 
 /// A light on its way into the tree.
 struct Item {
@@ -18,36 +22,61 @@ struct Item {
 
 /// A tree of the lights that have a cluster.
 pub(super) fn tree(lights: impl Iterator<Item = Option<Cluster>>) -> Tree {
-    let mut tree = Tree { root: None, pairs: Vec::new(), trails: Vec::new() };
+    let mut tree = Tree { nodes: Vec::new(), trails: Vec::new() };
     let mut items = Vec::new();
     for (index, cluster) in (0..).zip(lights) {
         tree.trails.push(Tree::NOWHERE);
         items.extend(cluster.map(|cluster| Item { cluster, index }));
     }
     if !items.is_empty() {
-        tree.pairs.reserve_exact(items.len() - 1);
-        tree.root = Some(grow(&mut tree, &mut items, 0, 0).0);
+        grow(&mut tree, &mut items, 0, 0);
+        tree.nodes.shrink_to_fit();
     }
     tree
 }
 
-/// The node of some lights, one at least, and their bounds. Recursion ends at [`Tree::MAX_DEPTH`].
-fn grow(tree: &mut Tree, items: &mut [Item], trail: u64, depth: u32) -> (Node, Cluster) {
-    if let [Item { cluster, index }] = *items {
-        tree.trails[index as usize] = trail;
-        return (Node { emitter: cluster.emitter(), link: Link::Light(index) }, cluster);
+/// Adds the node of some lights, one at least; returns its index and bounds. Recursion ends at [`Tree::MAX_DEPTH`].
+fn grow(tree: &mut Tree, items: &mut [Item], trail: u64, depth: u32) -> (u32, Cluster) {
+    let mut links = [0; 4];
+    let mut clusters = Vec::with_capacity(4);
+    for (side, part) in share_out(items, Tree::MAX_DEPTH - depth - 1).into_iter().enumerate() {
+        let trail = trail | (side as u64) << (2 * depth);
+        let (link, cluster) = match *part {
+            [Item { cluster, index }] => {
+                tree.trails[index as usize] = trail;
+                (!index, cluster)
+            }
+            _ => grow(tree, part, trail, depth + 1),
+        };
+        links[side] = link;
+        clusters.push(cluster);
     }
-    let (left, right) = split(items, Tree::MAX_DEPTH - depth - 1);
-    let (left, left_cluster) = grow(tree, left, trail, depth + 1);
-    let (right, right_cluster) = grow(tree, right, trail | 1 << depth, depth + 1);
-    let cluster = left_cluster.union(right_cluster);
-    tree.pairs.push([left, right]);
-    (Node { emitter: cluster.emitter(), link: Link::Pair(tree.pairs.len() as u32 - 1) }, cluster)
+    let brightest = clusters.iter().map(|cluster| cluster.intensity).fold(0.0, f64::max);
+    tree.nodes.push(Node { emitters: Emitters::new(&clusters, brightest), links });
+    (tree.nodes.len() as u32 - 1, clusters[1..].iter().copied().fold(clusters[0], Cluster::union))
 }
 
-/// Two parts, neither of them empty, that fit into trees of `levels` levels.
-fn split(items: &mut [Item], levels: u32) -> (&mut [Item], &mut [Item]) {
-    let plane = if items.len() as u64 <= 1 << levels { cheapest(items) } else { None };
+/// Up to four parts, none of them empty, that fit into trees of `levels` levels. Time and again the part of most lights
+/// is split, so that there are four if there can be.
+fn share_out(items: &mut [Item], levels: u32) -> Vec<&mut [Item]> {
+    let even = items.len() as u64 > 1 << (2 * levels);
+    let mut parts = Vec::with_capacity(4);
+    parts.push(items);
+    while parts.len() < 4 {
+        let most = (1..parts.len()).fold(0, |most, i| if parts[i].len() > parts[most].len() { i } else { most });
+        if parts[most].len() == 1 {
+            break;
+        }
+        let (left, right) = split(mem::take(&mut parts[most]), even);
+        parts[most] = left;
+        parts.insert(most + 1, right);
+    }
+    parts
+}
+
+/// Two parts, neither of them empty; halves if it must be `even`.
+fn split(items: &mut [Item], even: bool) -> (&mut [Item], &mut [Item]) {
+    let plane = if even { None } else { cheapest(items) };
     let middle = match plane {
         Some((axis, bin)) => partition(items, |item| axis.bin(item) < bin),
         None => halve(items),
@@ -177,14 +206,17 @@ mod tests {
     /// The depth of each light, found by walking down; every light is found where its trail leads.
     fn depths(tree: &Tree) -> Vec<u32> {
         let depth = |(index, &trail): (usize, &u64)| {
-            let mut node = tree.root.as_ref().unwrap();
-            let mut depth = 0;
-            while let Link::Pair(pair) = node.link {
-                node = &tree.pairs[pair as usize][(trail >> depth & 1) as usize];
+            let mut node = tree.nodes.last().unwrap();
+            let mut depth = 1;
+            loop {
+                let link = node.links[(trail >> (2 * (depth - 1)) & 3) as usize];
+                let Some(child) = tree.nodes.get(link as usize) else {
+                    assert_eq!(!link as usize, index);
+                    return depth;
+                };
+                node = child;
                 depth += 1;
             }
-            assert!(matches!(node.link, Link::Light(i) if i as usize == index));
-            depth
         };
         tree.trails.iter().enumerate().map(depth).collect()
     }
@@ -201,22 +233,28 @@ mod tests {
             let p = Vec3::new(a.x, 0.1 * a.y, c);
             LightBounds::flat(p, p + 1e-3, crate::sampling::uniform_sphere(b), 1.0 + c)
         };
-        let depths = depths(&grown(&(0..100_000).map(light).collect::<Vec<_>>()));
-        // log₂ 100,000 = 16.6.
-        assert!(mean(&depths) < 20.0 && depths.iter().all(|&d| d < 34), "{} {:?}", mean(&depths), depths.iter().max());
+        let tree = grown(&(0..100_000).map(light).collect::<Vec<_>>());
+        let depths = depths(&tree);
+        // log₄ 100,000 = 8.3.
+        assert!(mean(&depths) < 10.0 && depths.iter().all(|&d| d < 17), "{} {:?}", mean(&depths), depths.iter().max());
+        let bytes = size_of_val(&tree.nodes[..]) / depths.len();
+        assert!(bytes < 128, "{bytes} for each light");
     }
 
     #[test]
-    fn the_same_place_is_halved() {
+    fn the_same_place_is_quartered() {
         let depths = depths(&grown(&[LightBounds::sphere(Vec3::ONE, 0.5, 1.0); 1000]));
-        assert!(depths.iter().all(|&d| d == 9 || d == 10));
+        assert!(depths.iter().all(|&d| d == 5));
     }
 
-    /// Each crowd twelve times as far as the one before: bins cut off one at a time, and halving must step in.
+    /// To four sides, each crowd twelve times as far as the one before: bins cut off one at a time, and halving must
+    /// step in.
     #[test]
     fn depth_is_limited() {
-        let at = |crowd: i32| LightBounds::sphere(Vec3::X * 12_f32.powi(crowd - 33), 0.0, 1.0);
-        let lights: Vec<_> = (0..67).flat_map(|crowd| [at(crowd); 100]).collect();
+        let sides = [Vec3::X, Vec3::NEG_X, Vec3::Y, Vec3::NEG_Y];
+        let at = |crowd: i32, side: Vec3| LightBounds::sphere(side * 12_f32.powi(crowd - 33), 0.0, 1.0);
+        let crowd = |crowd| sides.map(|side| [at(crowd, side); 25]).concat();
+        let lights: Vec<_> = (0..67).flat_map(crowd).collect();
         assert_eq!(depths(&grown(&lights)).into_iter().max(), Some(Tree::MAX_DEPTH));
     }
 }

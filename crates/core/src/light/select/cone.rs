@@ -15,7 +15,7 @@ pub(super) struct Angle {
 }
 
 impl Angle {
-    pub(super) const ZERO: Self = Self { cos: 1.0, sin: 0.0 };
+    const ZERO: Self = Self { cos: 1.0, sin: 0.0 };
     pub(super) const STRAIGHT: Self = Self { cos: -1.0, sin: 0.0 };
 
     #[inline]
@@ -23,15 +23,9 @@ impl Angle {
         Self { cos, sin: (1.0 - cos * cos).max(0.0).sqrt() }
     }
 
-    /// The acute one of the two.
-    #[inline]
-    pub(super) fn from_sin(sin: f32) -> Self {
-        Self { cos: (1.0 - sin * sin).max(0.0).sqrt(), sin }
-    }
-
     /// Between unit vectors, exact to a few units of the last place of 1 from 0 to π.
     #[inline]
-    pub(super) fn between(a: Vec3, b: Vec3) -> Self {
+    fn between(a: Vec3, b: Vec3) -> Self {
         Self { cos: a.dot(b), sin: a.cross(b).length() }
     }
 
@@ -43,7 +37,7 @@ impl Angle {
 
     /// The difference, 0 where it would be negative.
     #[inline]
-    pub(super) fn minus(self, other: Self) -> Self {
+    fn minus(self, other: Self) -> Self {
         if self.within(other) {
             return Self::ZERO;
         }
@@ -54,7 +48,7 @@ impl Angle {
     }
 
     /// The sum; its sine is negative where it is above π.
-    fn plus(self, other: Self) -> Self {
+    pub(super) fn plus(self, other: Self) -> Self {
         Self { cos: self.cos * other.cos - self.sin * other.sin, sin: self.sin * other.cos + self.cos * other.sin }
     }
 

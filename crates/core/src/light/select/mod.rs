@@ -8,6 +8,7 @@
 
 mod bounds;
 mod build;
+mod cluster;
 mod cone;
 mod discrete;
 mod emitter;
@@ -18,8 +19,9 @@ use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 pub use bounds::LightBounds;
+use cluster::Cluster;
 use discrete::Discrete;
-use emitter::{Cluster, Emitter};
+use emitter::Emitters;
 use tree::Tree;
 
 use crate::math::{BELOW_ONE, mix};
@@ -40,8 +42,8 @@ pub enum LightSelection {
 /// The lights of a scene, ready to choose from.
 #[derive(Clone, Debug)]
 pub struct LightSelector {
-    /// All of the lights together.
-    all: Option<Emitter>,
+    /// All of the lights together: the first of four.
+    all: Option<Emitters>,
     choice: Choice,
 }
 
@@ -79,7 +81,7 @@ impl LightSelector {
             (None, LightSelection::Tree) => Choice::Tree(Tree::new(clusters())),
         };
         let all = clusters().flatten().reduce(Cluster::union);
-        Self { all: all.map(|all| all.emitter()), choice }
+        Self { all: all.map(|all| Emitters::new(&[all], 1.0)), choice }
     }
 
     /// Chooses a light for the point `p` with unit normal `n` by the random number `uc` in [0, 1).
@@ -114,7 +116,7 @@ impl LightSelector {
     /// are, it tends to be more. It is 0 only where nothing can arrive. An environment of radiance L sends π L.
     #[inline]
     pub fn importance(&self, p: Vec3, n: Vec3) -> f32 {
-        self.all.map_or(0.0, |all| all.importance(p, n).min(f64::from(f32::MAX)) as f32)
+        self.all.map_or(0.0, |all| all.irradiance(p, n).min(f64::from(f32::MAX)) as f32)
     }
 }
 
