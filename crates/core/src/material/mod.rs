@@ -11,6 +11,7 @@ mod fresnel;
 mod lambertian;
 mod metal;
 mod microfacet;
+mod oren_nayar;
 
 use glam::{Vec2, Vec3};
 use schemars::JsonSchema;
@@ -26,6 +27,7 @@ pub use fresnel::{Fresnel, fresnel_conductor};
 pub use lambertian::{Lambertian, LambertianBsdf};
 pub use metal::{Metal, MetalBsdf};
 pub use microfacet::{Facet, Ggx};
+pub use oren_nayar::{OrenNayar, OrenNayarBsdf};
 
 /// A material as a scene states it: `[material.NAME.KIND]`.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
@@ -33,6 +35,8 @@ pub use microfacet::{Facet, Ggx};
 pub enum MaterialDesc {
     /// Matte.
     Lambertian(Lambertian),
+    /// Matte and rough.
+    OrenNayar(OrenNayar),
     /// Mirror to rough metal.
     Metal(Metal),
     /// Polished to rough metal, of facets.
@@ -54,6 +58,7 @@ impl MaterialDesc {
     pub(crate) fn check(&self, c: &mut Checker) {
         match self {
             Self::Lambertian(m) => c.within("lambertian", |c| m.check(c)),
+            Self::OrenNayar(m) => c.within("oren-nayar", |c| m.check(c)),
             Self::Metal(m) => c.within("metal", |c| m.check(c)),
             Self::Conductor(m) => c.within("conductor", |c| m.check(c)),
             Self::Dielectric(m) => c.within("dielectric", |c| m.check(c)),
@@ -66,6 +71,7 @@ impl MaterialDesc {
     pub fn bsdf(&self) -> Bsdf {
         match self {
             Self::Lambertian(m) => Bsdf::Lambertian(m.bsdf()),
+            Self::OrenNayar(m) => Bsdf::OrenNayar(m.bsdf()),
             Self::Metal(m) => Bsdf::Metal(m.bsdf()),
             Self::Conductor(m) => Bsdf::Conductor(m.bsdf()),
             Self::Dielectric(m) => Bsdf::Dielectric(m.bsdf()),
@@ -88,6 +94,8 @@ impl MaterialDesc {
 pub enum Bsdf {
     /// See [`Lambertian`].
     Lambertian(LambertianBsdf),
+    /// See [`OrenNayar`].
+    OrenNayar(OrenNayarBsdf),
     /// See [`Metal`].
     Metal(MetalBsdf),
     /// See [`Conductor`].
@@ -118,6 +126,7 @@ impl Bsdf {
     pub fn sample(&self, wo: Vec3, uc: f32, u: Vec2) -> Option<BsdfSample> {
         match self {
             Self::Lambertian(b) => b.sample(wo, u),
+            Self::OrenNayar(b) => b.sample(wo, uc, u),
             Self::Metal(b) => b.sample(wo, uc, u),
             Self::Conductor(b) => b.sample(wo, u),
             Self::Dielectric(b) => b.sample(wo, uc, u),
@@ -129,6 +138,7 @@ impl Bsdf {
     pub fn eval_pdf(&self, wo: Vec3, wi: Vec3) -> (Spectrum, f32) {
         match self {
             Self::Lambertian(b) => b.eval_pdf(wo, wi),
+            Self::OrenNayar(b) => b.eval_pdf(wo, wi),
             Self::Metal(b) => b.eval_pdf(wo, wi),
             Self::Conductor(b) => b.eval_pdf(wo, wi),
             Self::Dielectric(b) => b.eval_pdf(wo, wi),
@@ -151,6 +161,7 @@ impl Bsdf {
     pub fn albedo(&self) -> Spectrum {
         match self {
             Self::Lambertian(b) => b.albedo,
+            Self::OrenNayar(b) => b.albedo(),
             Self::Metal(b) => b.albedo(),
             Self::Conductor(b) => b.albedo(),
             Self::Dielectric(_) => Spectrum::ONE,
@@ -161,7 +172,7 @@ impl Bsdf {
     #[inline]
     pub fn is_delta(&self) -> bool {
         match self {
-            Self::Lambertian(_) => false,
+            Self::Lambertian(_) | Self::OrenNayar(_) => false,
             Self::Metal(b) => b.is_delta(),
             Self::Conductor(b) => b.is_delta(),
             Self::Dielectric(b) => b.is_delta(),
