@@ -6,6 +6,7 @@
 
 mod conductor;
 mod dielectric;
+mod diffuse_transmission;
 mod emissive;
 mod fresnel;
 mod lambertian;
@@ -22,6 +23,7 @@ use crate::validate::Checker;
 
 pub use conductor::{Conductor, ConductorBsdf};
 pub use dielectric::{Dielectric, DielectricBsdf};
+pub use diffuse_transmission::{DiffuseTransmission, DiffuseTransmissionBsdf};
 pub use emissive::Emissive;
 pub use fresnel::{Fresnel, fresnel_conductor};
 pub use lambertian::{Lambertian, LambertianBsdf};
@@ -37,6 +39,8 @@ pub enum MaterialDesc {
     Lambertian(Lambertian),
     /// Matte and rough.
     OrenNayar(OrenNayar),
+    /// A matte leaf, paper.
+    DiffuseTransmission(DiffuseTransmission),
     /// Mirror to rough metal.
     Metal(Metal),
     /// Polished to rough metal, of facets.
@@ -59,6 +63,7 @@ impl MaterialDesc {
         match self {
             Self::Lambertian(m) => c.within("lambertian", |c| m.check(c)),
             Self::OrenNayar(m) => c.within("oren-nayar", |c| m.check(c)),
+            Self::DiffuseTransmission(m) => c.within("diffuse-transmission", |c| m.check(c)),
             Self::Metal(m) => c.within("metal", |c| m.check(c)),
             Self::Conductor(m) => c.within("conductor", |c| m.check(c)),
             Self::Dielectric(m) => c.within("dielectric", |c| m.check(c)),
@@ -72,6 +77,7 @@ impl MaterialDesc {
         match self {
             Self::Lambertian(m) => Bsdf::Lambertian(m.bsdf()),
             Self::OrenNayar(m) => Bsdf::OrenNayar(m.bsdf()),
+            Self::DiffuseTransmission(m) => Bsdf::DiffuseTransmission(m.bsdf()),
             Self::Metal(m) => Bsdf::Metal(m.bsdf()),
             Self::Conductor(m) => Bsdf::Conductor(m.bsdf()),
             Self::Dielectric(m) => Bsdf::Dielectric(m.bsdf()),
@@ -96,6 +102,8 @@ pub enum Bsdf {
     Lambertian(LambertianBsdf),
     /// See [`OrenNayar`].
     OrenNayar(OrenNayarBsdf),
+    /// See [`DiffuseTransmission`].
+    DiffuseTransmission(DiffuseTransmissionBsdf),
     /// See [`Metal`].
     Metal(MetalBsdf),
     /// See [`Conductor`].
@@ -127,6 +135,7 @@ impl Bsdf {
         match self {
             Self::Lambertian(b) => b.sample(wo, u),
             Self::OrenNayar(b) => b.sample(wo, uc, u),
+            Self::DiffuseTransmission(b) => b.sample(wo, uc, u),
             Self::Metal(b) => b.sample(wo, uc, u),
             Self::Conductor(b) => b.sample(wo, u),
             Self::Dielectric(b) => b.sample(wo, uc, u),
@@ -139,6 +148,7 @@ impl Bsdf {
         match self {
             Self::Lambertian(b) => b.eval_pdf(wo, wi),
             Self::OrenNayar(b) => b.eval_pdf(wo, wi),
+            Self::DiffuseTransmission(b) => b.eval_pdf(wo, wi),
             Self::Metal(b) => b.eval_pdf(wo, wi),
             Self::Conductor(b) => b.eval_pdf(wo, wi),
             Self::Dielectric(b) => b.eval_pdf(wo, wi),
@@ -157,11 +167,13 @@ impl Bsdf {
         self.eval_pdf(wo, wi).1
     }
 
-    /// About the share of light from straight above that is scattered back, whatever the roughness; 1 for what is clear.
+    /// About the share of light from straight above that is scattered, to either side, whatever the roughness; 1 for
+    /// what is clear.
     pub fn albedo(&self) -> Spectrum {
         match self {
             Self::Lambertian(b) => b.albedo,
             Self::OrenNayar(b) => b.albedo(),
+            Self::DiffuseTransmission(b) => b.albedo(),
             Self::Metal(b) => b.albedo(),
             Self::Conductor(b) => b.albedo(),
             Self::Dielectric(_) => Spectrum::ONE,
@@ -172,7 +184,7 @@ impl Bsdf {
     #[inline]
     pub fn is_delta(&self) -> bool {
         match self {
-            Self::Lambertian(_) | Self::OrenNayar(_) => false,
+            Self::Lambertian(_) | Self::OrenNayar(_) | Self::DiffuseTransmission(_) => false,
             Self::Metal(b) => b.is_delta(),
             Self::Conductor(b) => b.is_delta(),
             Self::Dielectric(b) => b.is_delta(),
