@@ -13,6 +13,7 @@ mod lambertian;
 mod metal;
 mod microfacet;
 mod oren_nayar;
+mod thin_dielectric;
 
 use glam::{Vec2, Vec3};
 use schemars::JsonSchema;
@@ -30,6 +31,7 @@ pub use lambertian::{Lambertian, LambertianBsdf};
 pub use metal::{Metal, MetalBsdf};
 pub use microfacet::{Facet, Ggx};
 pub use oren_nayar::{OrenNayar, OrenNayarBsdf};
+pub use thin_dielectric::{ThinDielectric, ThinDielectricBsdf};
 
 /// A material as a scene states it: `[material.NAME.KIND]`.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
@@ -47,6 +49,8 @@ pub enum MaterialDesc {
     Conductor(Conductor),
     /// Glass, water, diamond, smooth or frosted.
     Dielectric(Dielectric),
+    /// A pane of glass.
+    ThinDielectric(ThinDielectric),
     /// A lamp.
     Emissive(Emissive),
 }
@@ -67,6 +71,7 @@ impl MaterialDesc {
             Self::Metal(m) => c.within("metal", |c| m.check(c)),
             Self::Conductor(m) => c.within("conductor", |c| m.check(c)),
             Self::Dielectric(m) => c.within("dielectric", |c| m.check(c)),
+            Self::ThinDielectric(m) => c.within("thin-dielectric", |c| m.check(c)),
             Self::Emissive(m) => c.within("emissive", |c| m.check(c)),
         }
     }
@@ -81,6 +86,7 @@ impl MaterialDesc {
             Self::Metal(m) => Bsdf::Metal(m.bsdf()),
             Self::Conductor(m) => Bsdf::Conductor(m.bsdf()),
             Self::Dielectric(m) => Bsdf::Dielectric(m.bsdf()),
+            Self::ThinDielectric(m) => Bsdf::ThinDielectric(m.bsdf()),
             Self::Emissive(m) => Bsdf::Lambertian(m.bsdf()),
         }
     }
@@ -110,6 +116,8 @@ pub enum Bsdf {
     Conductor(ConductorBsdf),
     /// See [`Dielectric`].
     Dielectric(DielectricBsdf),
+    /// See [`ThinDielectric`].
+    ThinDielectric(ThinDielectricBsdf),
 }
 
 /// A direction drawn from a lobe.
@@ -139,6 +147,7 @@ impl Bsdf {
             Self::Metal(b) => b.sample(wo, uc, u),
             Self::Conductor(b) => b.sample(wo, u),
             Self::Dielectric(b) => b.sample(wo, uc, u),
+            Self::ThinDielectric(b) => b.sample(wo, uc),
         }
     }
 
@@ -152,6 +161,7 @@ impl Bsdf {
             Self::Metal(b) => b.eval_pdf(wo, wi),
             Self::Conductor(b) => b.eval_pdf(wo, wi),
             Self::Dielectric(b) => b.eval_pdf(wo, wi),
+            Self::ThinDielectric(_) => (Spectrum::BLACK, 0.0),
         }
     }
 
@@ -176,7 +186,7 @@ impl Bsdf {
             Self::DiffuseTransmission(b) => b.albedo(),
             Self::Metal(b) => b.albedo(),
             Self::Conductor(b) => b.albedo(),
-            Self::Dielectric(_) => Spectrum::ONE,
+            Self::Dielectric(_) | Self::ThinDielectric(_) => Spectrum::ONE,
         }
     }
 
@@ -188,6 +198,7 @@ impl Bsdf {
             Self::Metal(b) => b.is_delta(),
             Self::Conductor(b) => b.is_delta(),
             Self::Dielectric(b) => b.is_delta(),
+            Self::ThinDielectric(_) => true,
         }
     }
 }
