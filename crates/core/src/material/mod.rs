@@ -4,6 +4,7 @@
 //! `sample`, `eval`, `pdf`. Directions are unit vectors in the surface's local frame (normal = +z) that point away
 //! from the surface: `wo` to where light is going, `wi` to where it comes from.
 
+mod charlie;
 mod conductor;
 mod dielectric;
 mod diffuse_transmission;
@@ -13,6 +14,7 @@ mod lambertian;
 mod metal;
 mod microfacet;
 mod oren_nayar;
+mod sheen;
 mod thin_dielectric;
 
 use glam::{Vec2, Vec3};
@@ -31,6 +33,7 @@ pub use lambertian::{Lambertian, LambertianBsdf};
 pub use metal::{Metal, MetalBsdf};
 pub use microfacet::{Facet, Ggx};
 pub use oren_nayar::{OrenNayar, OrenNayarBsdf};
+pub use sheen::{Sheen, SheenBsdf};
 pub use thin_dielectric::{ThinDielectric, ThinDielectricBsdf};
 
 /// A material as a scene states it: `[material.NAME.KIND]`.
@@ -43,6 +46,8 @@ pub enum MaterialDesc {
     OrenNayar(OrenNayar),
     /// A matte leaf, paper.
     DiffuseTransmission(DiffuseTransmission),
+    /// Velvet, cloth.
+    Sheen(Sheen),
     /// Mirror to rough metal.
     Metal(Metal),
     /// Polished to rough metal, of facets.
@@ -68,6 +73,7 @@ impl MaterialDesc {
             Self::Lambertian(m) => c.within("lambertian", |c| m.check(c)),
             Self::OrenNayar(m) => c.within("oren-nayar", |c| m.check(c)),
             Self::DiffuseTransmission(m) => c.within("diffuse-transmission", |c| m.check(c)),
+            Self::Sheen(m) => c.within("sheen", |c| m.check(c)),
             Self::Metal(m) => c.within("metal", |c| m.check(c)),
             Self::Conductor(m) => c.within("conductor", |c| m.check(c)),
             Self::Dielectric(m) => c.within("dielectric", |c| m.check(c)),
@@ -83,6 +89,7 @@ impl MaterialDesc {
             Self::Lambertian(m) => Bsdf::Lambertian(m.bsdf()),
             Self::OrenNayar(m) => Bsdf::OrenNayar(m.bsdf()),
             Self::DiffuseTransmission(m) => Bsdf::DiffuseTransmission(m.bsdf()),
+            Self::Sheen(m) => Bsdf::Sheen(m.bsdf()),
             Self::Metal(m) => Bsdf::Metal(m.bsdf()),
             Self::Conductor(m) => Bsdf::Conductor(m.bsdf()),
             Self::Dielectric(m) => Bsdf::Dielectric(m.bsdf()),
@@ -110,6 +117,8 @@ pub enum Bsdf {
     OrenNayar(OrenNayarBsdf),
     /// See [`DiffuseTransmission`].
     DiffuseTransmission(DiffuseTransmissionBsdf),
+    /// See [`Sheen`].
+    Sheen(SheenBsdf),
     /// See [`Metal`].
     Metal(MetalBsdf),
     /// See [`Conductor`].
@@ -144,6 +153,7 @@ impl Bsdf {
             Self::Lambertian(b) => b.sample(wo, u),
             Self::OrenNayar(b) => b.sample(wo, uc, u),
             Self::DiffuseTransmission(b) => b.sample(wo, uc, u),
+            Self::Sheen(b) => b.sample(wo, uc, u),
             Self::Metal(b) => b.sample(wo, uc, u),
             Self::Conductor(b) => b.sample(wo, u),
             Self::Dielectric(b) => b.sample(wo, uc, u),
@@ -158,6 +168,7 @@ impl Bsdf {
             Self::Lambertian(b) => b.eval_pdf(wo, wi),
             Self::OrenNayar(b) => b.eval_pdf(wo, wi),
             Self::DiffuseTransmission(b) => b.eval_pdf(wo, wi),
+            Self::Sheen(b) => b.eval_pdf(wo, wi),
             Self::Metal(b) => b.eval_pdf(wo, wi),
             Self::Conductor(b) => b.eval_pdf(wo, wi),
             Self::Dielectric(b) => b.eval_pdf(wo, wi),
@@ -184,6 +195,7 @@ impl Bsdf {
             Self::Lambertian(b) => b.albedo,
             Self::OrenNayar(b) => b.albedo(),
             Self::DiffuseTransmission(b) => b.albedo(),
+            Self::Sheen(b) => b.albedo(),
             Self::Metal(b) => b.albedo(),
             Self::Conductor(b) => b.albedo(),
             Self::Dielectric(_) | Self::ThinDielectric(_) => Spectrum::ONE,
@@ -194,7 +206,7 @@ impl Bsdf {
     #[inline]
     pub fn is_delta(&self) -> bool {
         match self {
-            Self::Lambertian(_) | Self::OrenNayar(_) | Self::DiffuseTransmission(_) => false,
+            Self::Lambertian(_) | Self::OrenNayar(_) | Self::DiffuseTransmission(_) | Self::Sheen(_) => false,
             Self::Metal(b) => b.is_delta(),
             Self::Conductor(b) => b.is_delta(),
             Self::Dielectric(b) => b.is_delta(),
