@@ -5,6 +5,7 @@ mod far;
 mod glass;
 mod lamps;
 mod room;
+mod thin;
 
 use std::num::NonZeroUsize;
 use std::ops::Range;
@@ -35,7 +36,7 @@ pub struct KnownScene {
 
 /// All of them.
 pub fn all() -> Vec<KnownScene> {
-    [room::scenes(), glass::scenes(), lamps::scenes(), far::scenes()].concat()
+    [room::scenes(), glass::scenes(), thin::scenes(), lamps::scenes(), far::scenes()].concat()
 }
 
 impl KnownScene {
