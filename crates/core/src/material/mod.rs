@@ -4,13 +4,18 @@
 //! `sample`, `eval`, `pdf`. Directions are unit vectors in the surface's local frame (normal = +z) that point away
 //! from the surface: `wo` to where light is going, `wi` to where it comes from.
 
+mod charlie;
 mod conductor;
 mod dielectric;
+mod diffuse_transmission;
 mod emissive;
 mod fresnel;
 mod lambertian;
 mod metal;
 mod microfacet;
+mod oren_nayar;
+mod sheen;
+mod thin_dielectric;
 
 use glam::{Vec2, Vec3};
 use schemars::JsonSchema;
@@ -22,11 +27,15 @@ use crate::validate::Checker;
 
 pub use conductor::{Conductor, ConductorBsdf};
 pub use dielectric::{Dielectric, DielectricBsdf};
+pub use diffuse_transmission::{DiffuseTransmission, DiffuseTransmissionBsdf};
 pub use emissive::Emissive;
 pub use fresnel::{Fresnel, fresnel_conductor};
 pub use lambertian::{Lambertian, LambertianBsdf};
 pub use metal::{Metal, MetalBsdf};
 pub use microfacet::{Facet, Ggx};
+pub use oren_nayar::{OrenNayar, OrenNayarBsdf};
+pub use sheen::{Sheen, SheenBsdf};
+pub use thin_dielectric::{ThinDielectric, ThinDielectricBsdf};
 
 /// A material as a scene states it: `[material.NAME.KIND]`.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
@@ -34,12 +43,20 @@ pub use microfacet::{Facet, Ggx};
 pub enum MaterialDesc {
     /// Matte.
     Lambertian(Lambertian),
+    /// Matte and rough.
+    OrenNayar(OrenNayar),
+    /// A matte leaf, paper.
+    DiffuseTransmission(DiffuseTransmission),
+    /// Velvet, cloth.
+    Sheen(Sheen),
     /// Mirror to rough metal.
     Metal(Metal),
     /// Polished to rough metal, of facets.
     Conductor(Conductor),
     /// Glass, water, diamond, smooth or frosted.
     Dielectric(Dielectric),
+    /// A pane of glass.
+    ThinDielectric(ThinDielectric),
     /// A lamp.
     Emissive(Emissive),
 }
@@ -55,9 +72,13 @@ impl MaterialDesc {
     pub(crate) fn check(&self, c: &mut Checker) {
         match self {
             Self::Lambertian(m) => c.within("lambertian", |c| m.check(c)),
+            Self::OrenNayar(m) => c.within("oren-nayar", |c| m.check(c)),
+            Self::DiffuseTransmission(m) => c.within("diffuse-transmission", |c| m.check(c)),
+            Self::Sheen(m) => c.within("sheen", |c| m.check(c)),
             Self::Metal(m) => c.within("metal", |c| m.check(c)),
             Self::Conductor(m) => c.within("conductor", |c| m.check(c)),
             Self::Dielectric(m) => c.within("dielectric", |c| m.check(c)),
+            Self::ThinDielectric(m) => c.within("thin-dielectric", |c| m.check(c)),
             Self::Emissive(m) => c.within("emissive", |c| m.check(c)),
         }
     }
@@ -67,9 +88,13 @@ impl MaterialDesc {
     pub fn bsdf(&self, textures: &impl Textures) -> Bsdf {
         match self {
             Self::Lambertian(m) => Bsdf::Lambertian(m.bsdf(textures)),
+            Self::OrenNayar(m) => Bsdf::OrenNayar(m.bsdf(textures)),
+            Self::DiffuseTransmission(m) => Bsdf::DiffuseTransmission(m.bsdf()),
+            Self::Sheen(m) => Bsdf::Sheen(m.bsdf()),
             Self::Metal(m) => Bsdf::Metal(m.bsdf(textures)),
             Self::Conductor(m) => Bsdf::Conductor(m.bsdf()),
             Self::Dielectric(m) => Bsdf::Dielectric(m.bsdf()),
+            Self::ThinDielectric(m) => Bsdf::ThinDielectric(m.bsdf()),
             Self::Emissive(m) => Bsdf::Lambertian(m.bsdf(textures)),
         }
     }
@@ -79,8 +104,12 @@ impl MaterialDesc {
         match self {
             Self::Lambertian(m) => ("lambertian", vec![("albedo", &m.albedo)]),
             Self::Metal(m) => ("metal", vec![("albedo", &m.albedo)]),
+            Self::OrenNayar(m) => ("oren-nayar", vec![("albedo", &m.albedo)]),
+            Self::DiffuseTransmission(_) => ("diffuse-transmission", vec![]),
+            Self::Sheen(_) => ("sheen", vec![]),
             Self::Conductor(_) => ("conductor", vec![]),
             Self::Dielectric(_) => ("dielectric", vec![]),
+            Self::ThinDielectric(_) => ("thin-dielectric", vec![]),
             Self::Emissive(m) => ("emissive", vec![("albedo", &m.albedo)]),
         }
     }
@@ -91,7 +120,12 @@ impl MaterialDesc {
             Self::Lambertian(m) => vec![&mut m.albedo],
             Self::Metal(m) => vec![&mut m.albedo],
             Self::Emissive(m) => vec![&mut m.albedo],
-            Self::Conductor(_) | Self::Dielectric(_) => vec![],
+            Self::OrenNayar(m) => vec![&mut m.albedo],
+            Self::DiffuseTransmission(_)
+            | Self::Sheen(_)
+            | Self::Conductor(_)
+            | Self::Dielectric(_)
+            | Self::ThinDielectric(_) => vec![],
         }
     }
 
@@ -110,12 +144,20 @@ impl MaterialDesc {
 pub enum Bsdf {
     /// See [`Lambertian`].
     Lambertian(LambertianBsdf),
+    /// See [`OrenNayar`].
+    OrenNayar(OrenNayarBsdf),
+    /// See [`DiffuseTransmission`].
+    DiffuseTransmission(DiffuseTransmissionBsdf),
+    /// See [`Sheen`].
+    Sheen(SheenBsdf),
     /// See [`Metal`].
     Metal(MetalBsdf),
     /// See [`Conductor`].
     Conductor(ConductorBsdf),
     /// See [`Dielectric`].
     Dielectric(DielectricBsdf),
+    /// See [`ThinDielectric`].
+    ThinDielectric(ThinDielectricBsdf),
 }
 
 /// A direction drawn from a lobe.
@@ -140,9 +182,13 @@ impl Bsdf {
     pub fn sample(&self, wo: Vec3, uc: f32, u: Vec2) -> Option<BsdfSample> {
         match self {
             Self::Lambertian(b) => b.sample(wo, u),
+            Self::OrenNayar(b) => b.sample(wo, uc, u),
+            Self::DiffuseTransmission(b) => b.sample(wo, uc, u),
+            Self::Sheen(b) => b.sample(wo, uc, u),
             Self::Metal(b) => b.sample(wo, uc, u),
             Self::Conductor(b) => b.sample(wo, u),
             Self::Dielectric(b) => b.sample(wo, uc, u),
+            Self::ThinDielectric(b) => b.sample(wo, uc),
         }
     }
 
@@ -151,9 +197,13 @@ impl Bsdf {
     pub fn eval_pdf(&self, wo: Vec3, wi: Vec3) -> (Spectrum, f32) {
         match self {
             Self::Lambertian(b) => b.eval_pdf(wo, wi),
+            Self::OrenNayar(b) => b.eval_pdf(wo, wi),
+            Self::DiffuseTransmission(b) => b.eval_pdf(wo, wi),
+            Self::Sheen(b) => b.eval_pdf(wo, wi),
             Self::Metal(b) => b.eval_pdf(wo, wi),
             Self::Conductor(b) => b.eval_pdf(wo, wi),
             Self::Dielectric(b) => b.eval_pdf(wo, wi),
+            Self::ThinDielectric(_) => (Spectrum::BLACK, 0.0),
         }
     }
 
@@ -169,13 +219,17 @@ impl Bsdf {
         self.eval_pdf(wo, wi).1
     }
 
-    /// About the share of light from straight above that is scattered back, whatever the roughness; 1 for what is clear.
+    /// About the share of light from straight above that is scattered, to either side, whatever the roughness; 1 for
+    /// what is clear.
     pub fn albedo(&self) -> Spectrum {
         match self {
             Self::Lambertian(b) => b.albedo,
+            Self::OrenNayar(b) => b.albedo(),
+            Self::DiffuseTransmission(b) => b.albedo(),
+            Self::Sheen(b) => b.albedo(),
             Self::Metal(b) => b.albedo(),
             Self::Conductor(b) => b.albedo(),
-            Self::Dielectric(_) => Spectrum::ONE,
+            Self::Dielectric(_) | Self::ThinDielectric(_) => Spectrum::ONE,
         }
     }
 
@@ -183,10 +237,11 @@ impl Bsdf {
     #[inline]
     pub fn is_delta(&self) -> bool {
         match self {
-            Self::Lambertian(_) => false,
+            Self::Lambertian(_) | Self::OrenNayar(_) | Self::DiffuseTransmission(_) | Self::Sheen(_) => false,
             Self::Metal(b) => b.is_delta(),
             Self::Conductor(b) => b.is_delta(),
             Self::Dielectric(b) => b.is_delta(),
+            Self::ThinDielectric(_) => true,
         }
     }
 }

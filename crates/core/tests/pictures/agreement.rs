@@ -9,7 +9,9 @@ use eyebeam_core::desc::SceneDesc;
 use eyebeam_core::film::Image;
 use eyebeam_core::integrator::IntegratorKind;
 use eyebeam_core::light::{DirectionalLight, EnvironmentDesc, ImageEnvironment};
-use eyebeam_core::material::{Conductor, Dielectric, Emissive, MaterialDesc, Metal};
+use eyebeam_core::material::{
+    Conductor, Dielectric, DiffuseTransmission, Emissive, MaterialDesc, Metal, OrenNayar, Sheen, ThinDielectric,
+};
 use eyebeam_core::render::Settings;
 use eyebeam_core::shape::{MeshDesc, QuadDesc};
 use eyebeam_core::testing::z_test_films;
@@ -119,6 +121,32 @@ fn frosted() -> SceneDesc {
     desc
 }
 
+/// Plaster, velvet, and a lamp in front of and behind a pane and a sheet of paper.
+fn matte_and_thin() -> SceneDesc {
+    let mut desc = still_life(EnvironmentDesc::default());
+    let plaster = OrenNayar { albedo: Rgb([0.9, 0.6, 0.4]).into(), roughness: 1.0 };
+    let velvet = Sheen { color: Rgb([0.9, 0.5, 0.2]), roughness: 0.4, albedo: Rgb([0.2, 0.3, 0.6]) };
+    let paper = DiffuseTransmission { reflectance: Rgb([0.3, 0.5, 0.2]), transmittance: Rgb([0.6, 0.3, 0.5]) };
+    let pane = ThinDielectric { eta: 1.5, color: Rgb([0.5, 0.9, 0.7]) };
+    for (name, material) in [
+        ("lamp", lamp(4.0)),
+        ("plaster", MaterialDesc::OrenNayar(plaster)),
+        ("velvet", MaterialDesc::Sheen(velvet)),
+        ("paper", MaterialDesc::DiffuseTransmission(paper)),
+        ("pane", MaterialDesc::ThinDielectric(pane)),
+    ] {
+        with(&mut desc, name, material);
+    }
+    desc.shape.quad.push(quad([-1.0, 3.0, -1.0], [2.0, 0.0, 0.0], [0.0, 0.0, 2.0], "lamp"));
+    desc.shape.quad.push(quad([-0.4, 0.2, 1.0], [0.8, 0.1, 0.0], [0.0, 0.5, 0.2], "paper"));
+    desc.shape.quad.push(quad([0.6, 0.0, 1.0], [0.8, 0.0, 0.3], [0.0, 1.2, 0.0], "pane"));
+    for (x, name) in [(1.2, "plaster"), (-1.2, "velvet")] {
+        desc.shape.sphere.push(sphere([x, 0.6, 0.2], 0.6));
+        desc.shape.sphere.last_mut().unwrap().material = Some(name.to_owned());
+    }
+    desc
+}
+
 /// Inside of a ball that shines inwards, and a lamp so close to the floor that it fills most of its sky.
 fn enclosed() -> SceneDesc {
     let mut desc = still_life(DARK);
@@ -206,6 +234,7 @@ fn where_light_sampling_helps() {
     check("panorama", &panorama());
     check("sun", &sun());
     check("frosted", &frosted());
+    check("matte and thin", &matte_and_thin());
 }
 
 #[test]

@@ -1,7 +1,7 @@
 //! Light is the same everywhere: what loses none cannot be told from the background.
 
 use eyebeam_core::color::Rgb;
-use eyebeam_core::material::{Dielectric, Emissive, MaterialDesc, Metal};
+use eyebeam_core::material::{Dielectric, DiffuseTransmission, Emissive, MaterialDesc, Metal, ThinDielectric};
 
 use crate::setup::*;
 
@@ -15,6 +15,18 @@ fn white_balls_vanish() {
         let mut desc = scene(WHITE, material, look([0.0, 0.0, 3.0], [0.0; 3], 60.0));
         desc.shape.sphere.push(sphere([0.0; 3], 1.0));
         assert_every_way(&desc, &settings(64, 64, 50), 1.0, 0.0, name);
+    }
+}
+
+/// So does a hollow one of what light comes through, however often it goes to and fro inside.
+#[test]
+fn thin_balls_vanish() {
+    let half = Rgb::grey(0.5);
+    let sheet = MaterialDesc::DiffuseTransmission(DiffuseTransmission { reflectance: half, transmittance: half });
+    for (name, material) in [("sheet", sheet), ("pane", MaterialDesc::ThinDielectric(ThinDielectric::default()))] {
+        let mut desc = scene(WHITE, material, look([0.0, 0.0, 3.0], [0.0; 3], 60.0));
+        desc.shape.sphere.push(sphere([0.0; 3], 1.0));
+        assert_every_way(&desc, &settings(32, 64, 10_000), 1.0, 0.0, name);
     }
 }
 

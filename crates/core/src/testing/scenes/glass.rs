@@ -51,7 +51,7 @@ fn slab(degrees: f64) -> KnownScene {
 }
 
 /// Fresnel's share for unpolarised light, by the sines of both angles and what Snell's law says of them.
-fn reflectance(cos_i: f64, eta: f64) -> f64 {
+pub(super) fn reflectance(cos_i: f64, eta: f64) -> f64 {
     let cos_t = (1.0 - (1.0 - cos_i * cos_i) / (eta * eta)).sqrt();
     let perpendicular = (cos_i - eta * cos_t) / (cos_i + eta * cos_t);
     let parallel = (cos_t - eta * cos_i) / (cos_t + eta * cos_i);

@@ -9,6 +9,7 @@ mod glass;
 mod lamps;
 mod room;
 mod sky;
+mod thin;
 
 use std::num::NonZeroUsize;
 use std::ops::Range;
@@ -43,8 +44,9 @@ pub fn all() -> Vec<KnownScene> {
     /// Some of the numbers take a while to compute: once is enough.
     static ALL: OnceLock<Vec<KnownScene>> = OnceLock::new();
     let build = || {
-        let near = [room::scenes(), glass::scenes(), facets::scenes(), lamps::scenes(), facing::scenes()];
-        [near.concat(), far::scenes(), sky::scenes()].concat()
+        let surfaces = [room::scenes(), glass::scenes(), thin::scenes(), facets::scenes()];
+        let lights = [lamps::scenes(), facing::scenes(), far::scenes(), sky::scenes()];
+        [surfaces.concat(), lights.concat()].concat()
     };
     ALL.get_or_init(build).clone()
 }

@@ -11,7 +11,9 @@ use crate::desc::SceneDesc;
 use crate::film::{BlackmanHarris, BoxFilter, FilterDesc, Gaussian, Image, Mitchell, Tent};
 use crate::light::select::{LightBounds, LightSelection};
 use crate::light::{DirectionalLight, EnvironmentDesc, ImageEnvironment, NoLight};
-use crate::material::{Conductor, Dielectric, Emissive, Lambertian, MaterialDesc, Metal};
+use crate::material::{
+    Conductor, Dielectric, DiffuseTransmission, Emissive, Lambertian, MaterialDesc, Metal, OrenNayar, Sheen,
+};
 use crate::sampler::SamplerKind;
 use crate::shape::{MeshDesc, QuadDesc, SphereDesc};
 use crate::testing::{
@@ -87,8 +89,17 @@ fn lobes() -> impl Iterator<Item = (&'static str, MaterialDesc, Reciprocal)> {
         roughness: 0.3,
         ..Conductor::default()
     };
+    let leaf = DiffuseTransmission { reflectance: Rgb([0.1, 0.3, 0.05]), transmittance: Rgb([0.2, 0.5, 0.0]) };
+    let velvet = Sheen { color: Rgb([0.9, 0.4, 0.2]), roughness: 0.4, albedo: Rgb([0.2, 0.1, 0.0]) };
     [
         ("matte", MaterialDesc::Lambertian(Lambertian { albedo: Rgb([0.9, 0.5, 0.1]).into() }), Reciprocal::Yes),
+        (
+            "rough matte",
+            MaterialDesc::OrenNayar(OrenNayar { albedo: Rgb::grey(1.0).into(), roughness: 0.8 }),
+            Reciprocal::Yes,
+        ),
+        ("a leaf", MaterialDesc::DiffuseTransmission(leaf), Reciprocal::Yes),
+        ("velvet", MaterialDesc::Sheen(velvet), Reciprocal::Yes),
         ("fuzzy metal", MaterialDesc::Metal(Metal { albedo: Rgb::grey(0.9).into(), roughness: 0.4 }), Reciprocal::No),
         ("rough metal", MaterialDesc::Conductor(gold), Reciprocal::Yes),
         ("rough glass", MaterialDesc::Dielectric(Dielectric { eta: 1.5, roughness: 0.5 }), Reciprocal::Yes),
