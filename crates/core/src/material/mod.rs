@@ -10,6 +10,7 @@ mod emissive;
 mod fresnel;
 mod lambertian;
 mod metal;
+mod metals;
 mod microfacet;
 
 use glam::{Vec2, Vec3};
@@ -25,6 +26,7 @@ pub use emissive::Emissive;
 pub use fresnel::{Fresnel, fresnel_conductor};
 pub use lambertian::{Lambertian, LambertianBsdf};
 pub use metal::{Metal, MetalBsdf};
+pub use metals::NamedMetal;
 pub use microfacet::{Facet, Ggx};
 
 /// A material as a scene states it: `[material.NAME.KIND]`.
