@@ -52,11 +52,20 @@ impl Ggx {
     /// grazing angles to some 1e-6.
     pub const MIN_ALPHA: f32 = 5e-4;
 
+    /// The aspect of what is stretched most, √0.1.
+    pub const MIN_ASPECT: f32 = 0.316_227_77;
+
     /// From what a user says, 0..=1: alpha = roughness², which looks evenly spaced (Burley 2012, Physically Based
     /// Shading at Disney).
     #[inline]
     pub fn from_roughness(roughness: f32) -> Self {
-        Self { alpha: roughness * roughness, aspect: Vec2::ONE }
+        Self::from_alpha(roughness * roughness)
+    }
+
+    /// The same along x and y.
+    #[inline]
+    pub fn from_alpha(alpha: f32) -> Self {
+        Self { alpha, aspect: Vec2::ONE }
     }
 
     /// Facets that are the same in area, but steeper along x, the more so the nearer `anisotropy` in 0..=1 is to 1:
@@ -65,7 +74,14 @@ impl Ggx {
     #[inline]
     #[must_use]
     pub fn stretched(self, anisotropy: f32) -> Self {
-        let aspect = (1.0 - 0.9 * anisotropy).sqrt().max((Self::MIN_ALPHA / self.alpha).min(1.0));
+        let aspect = (1.0 - 0.9 * anisotropy).sqrt().max(Self::MIN_ASPECT);
+        self.with_aspect(aspect.max((Self::MIN_ALPHA / self.alpha).min(1.0)))
+    }
+
+    /// αx = alpha / aspect, αy = alpha · aspect.
+    #[inline]
+    #[must_use]
+    pub fn with_aspect(self, aspect: f32) -> Self {
         Self { aspect: Vec2::new(1.0 / aspect, aspect), ..self }
     }
 

@@ -9,6 +9,7 @@ mod dielectric;
 mod emissive;
 mod fresnel;
 mod lambertian;
+mod lost;
 mod metal;
 mod metals;
 mod microfacet;
@@ -121,7 +122,7 @@ impl Bsdf {
         match self {
             Self::Lambertian(b) => b.sample(wo, u),
             Self::Metal(b) => b.sample(wo, uc, u),
-            Self::Conductor(b) => b.sample(wo, u),
+            Self::Conductor(b) => b.sample(wo, uc, u),
             Self::Dielectric(b) => b.sample(wo, uc, u),
         }
     }
