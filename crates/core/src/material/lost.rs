@@ -18,6 +18,7 @@ use std::sync::LazyLock;
 use glam::{Vec2, Vec3};
 
 use crate::material::microfacet::{Ggx, reflect_at};
+use crate::math::sin_cos_turns;
 
 /// 1 − E(w) for a `w` above the surface, 0..1.
 #[inline(never)]
@@ -133,7 +134,7 @@ fn means<const N: usize>(facets: impl Fn(f32) -> Ggx, lost: impl Fn(Ggx, Vec3) -
         let mut sum = 0.0;
         for i in 0..azimuths {
             // Quarters are alike.
-            let (sin, cos) = crate::math::sin_cos_turns((f32::from(i) + 0.5) / f32::from(azimuths) * 0.25);
+            let (sin, cos) = sin_cos_turns((f32::from(i) + 0.5) / f32::from(azimuths) * 0.25);
             let azimuth = Vec2::new(cos, sin);
             for j in 0..COLUMNS {
                 let [near, middle, far] = [0.0, 0.5, 1.0].map(|t| {
@@ -208,6 +209,22 @@ impl Anisotropic {
         });
         near + (far - near) * between_aspects
     }
+}
+
+/// A direction whose cosine is about alpha: the density of t = cos (1 + alpha) / (cos + alpha) is 2 t.
+#[inline]
+pub(super) fn near_horizon(alpha: f32, u: Vec2) -> Vec3 {
+    let t = u.y.sqrt();
+    let cos = (alpha * t / (1.0 - t + alpha)).min(1.0);
+    let (y, x) = sin_cos_turns(u.x);
+    (Vec2::new(x, y) * ((1.0 - cos) * (1.0 + cos)).sqrt()).extend(cos)
+}
+
+/// The density of [`near_horizon`] over cos / π.
+#[inline]
+pub(super) fn horizon_over_cosine(alpha: f32, cos: f32) -> f32 {
+    let sum = cos + alpha;
+    alpha * (1.0 + alpha) * (1.0 + alpha) / (sum * sum * sum)
 }
 
 #[cfg(test)]
