@@ -1,7 +1,7 @@
 //! Scenes in the plain format that several renderers are compared on: a JSON file with spheres, quads and PLY meshes.
 //!
 //! As in the other renderers' drivers: a pixel is a box, nothing is clamped or adaptive, `max_depth` counts the edges of a
-//! path, a metal is a GGX conductor of constant Fresnel and the width `alpha` as given.
+//! path, a metal is a GGX conductor of constant Fresnel, the width `alpha` as given, and single scattering.
 
 use std::collections::BTreeMap;
 use std::error::Error;
@@ -158,6 +158,7 @@ impl From<Material> for MaterialDesc {
             Material::Metal { albedo, alpha } => Self::Conductor(Conductor {
                 reflectance: Some(Rgb(albedo)),
                 roughness: alpha.sqrt(),
+                compensation: false,
                 ..Conductor::default()
             }),
             Material::Dielectric { ior, alpha } => Self::Dielectric(Dielectric { eta: ior, roughness: alpha.sqrt() }),

@@ -11,7 +11,9 @@ mod diffuse_transmission;
 mod emissive;
 mod fresnel;
 mod lambertian;
+mod lost;
 mod metal;
+mod metals;
 mod microfacet;
 mod oren_nayar;
 mod sheen;
@@ -32,6 +34,7 @@ pub use emissive::Emissive;
 pub use fresnel::{Fresnel, fresnel_conductor};
 pub use lambertian::{Lambertian, LambertianBsdf};
 pub use metal::{Metal, MetalBsdf};
+pub use metals::NamedMetal;
 pub use microfacet::{Facet, Ggx};
 pub use oren_nayar::{OrenNayar, OrenNayarBsdf};
 pub use sheen::{Sheen, SheenBsdf};
@@ -186,7 +189,7 @@ impl Bsdf {
             Self::DiffuseTransmission(b) => b.sample(wo, uc, u),
             Self::Sheen(b) => b.sample(wo, uc, u),
             Self::Metal(b) => b.sample(wo, uc, u),
-            Self::Conductor(b) => b.sample(wo, u),
+            Self::Conductor(b) => b.sample(wo, uc, u),
             Self::Dielectric(b) => b.sample(wo, uc, u),
             Self::ThinDielectric(b) => b.sample(wo, uc),
         }

@@ -117,7 +117,8 @@ fn chi2_lobe(lobe: &dyn Lobe, wo: Vec3, significance: f64) -> Result<(), String>
     chi2_at(&observed, &expected, significance)
 }
 
-/// Sample by sample: unit directions, weight = eval / pdf, reciprocity; and on the whole, energy at most 1.
+/// Sample by sample: unit directions, weight = eval / pdf, reciprocity; and that weights, which are shares of energy but for the
+/// index squared, are at most 1 in the mean. Of a lobe that keeps all energy some are above 1 unless all are 1.
 fn check_samples(lobe: &dyn Lobe, wo: Vec3, reciprocal: Reciprocal) -> Result<(), String> {
     const N: usize = 2000;
     let close = |a: f32, b: f32| (a - b).abs() <= 2e-3 * a.abs().max(b.abs()) + 1e-6;

@@ -10,7 +10,8 @@ use eyebeam_core::film::Image;
 use eyebeam_core::integrator::IntegratorKind;
 use eyebeam_core::light::{DirectionalLight, EnvironmentDesc, ImageEnvironment};
 use eyebeam_core::material::{
-    Conductor, Dielectric, DiffuseTransmission, Emissive, MaterialDesc, Metal, OrenNayar, Sheen, ThinDielectric,
+    Conductor, Dielectric, DiffuseTransmission, Emissive, MaterialDesc, Metal, NamedMetal, OrenNayar, Sheen,
+    ThinDielectric,
 };
 use eyebeam_core::render::Settings;
 use eyebeam_core::shape::{MeshDesc, QuadDesc};
@@ -103,8 +104,7 @@ fn frosted() -> SceneDesc {
     let mut desc = still_life(EnvironmentDesc::default());
     let frosted = |roughness| MaterialDesc::Dielectric(Dielectric { eta: 1.5, roughness });
     let copper = Conductor { reflectance: Some(Rgb([0.9, 0.6, 0.4])), roughness: 0.6, ..Conductor::default() };
-    let (eta, k) = (Some(Rgb([0.2, 0.9, 1.1])), Some(Rgb([3.9, 2.5, 2.4])));
-    let gold = Conductor { eta, k, reflectance: None, roughness: 0.5 };
+    let gold = Conductor { metal: Some(NamedMetal::Gold), roughness: 0.5, anisotropy: 0.6, ..Conductor::default() };
     for (name, material) in [
         ("lamp", lamp(4.0)),
         ("frosted", frosted(0.6)),

@@ -18,6 +18,8 @@ fn names() {
         "[material.gold.metal]\n[[shape.sphere]]\nradius = 1\nmaterial = ▸\"glod\"",
         "[material.gold.metal]\n[[shape.sphere]]\nradius = 1\nmaterial = ▸\"velvet\"",
         "[[shape.sphere]]\nradius = 1\nmaterial = ▸\"velvet\"",
+        "[material.ring.conductor]\nmetal = ▸\"glod\"",
+        "[material.ring.conductor]\nmetal = ▸\"mithril\"",
         "[camera]\n▸\"red\\u001b[31m\\n`tick`, expected\" = 1",
     ]);
     insta::assert_snapshot!(said);

@@ -33,9 +33,14 @@ fn under_the_sky(name: String, material: MaterialDesc, degrees: f64, expected: f
     KnownScene::new(format!("{name} at {degrees} degrees"), desc, 2, expected)
 }
 
+/// Metal without what goes from facet to facet.
+fn once_scattered() -> Conductor {
+    Conductor { compensation: false, ..Conductor::default() }
+}
+
 /// What reflects all at every facet shows what is lost between them.
 fn white_metal(roughness: f32, degrees: f64) -> KnownScene {
-    let metal = Conductor { reflectance: Some(Rgb::grey(1.0)), roughness, ..Conductor::default() };
+    let metal = Conductor { reflectance: Some(Rgb::grey(1.0)), roughness, ..once_scattered() };
     let facets = Facets::new(roughness);
     let expected = facets.radiance(degrees, |wo, m| facets.reflected(wo, m));
     under_the_sky(format!("white facets of roughness {roughness}"), MaterialDesc::Conductor(metal), degrees, expected)
@@ -43,7 +48,7 @@ fn white_metal(roughness: f32, degrees: f64) -> KnownScene {
 
 fn gold(roughness: f32, degrees: f64) -> KnownScene {
     let (eta, k) = ([0.143, 0.375, 1.44], [3.98, 2.39, 1.60]);
-    let metal = Conductor { eta: Some(Rgb(eta)), k: Some(Rgb(k)), reflectance: None, roughness };
+    let metal = Conductor { eta: Some(Rgb(eta)), k: Some(Rgb(k)), roughness, ..once_scattered() };
     let facets = Facets::new(roughness);
     let radiance = std::array::from_fn(|i| {
         let (eta, k) = (f64::from(eta[i]), f64::from(k[i]));
