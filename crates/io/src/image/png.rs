@@ -135,6 +135,6 @@ mod tests {
         let look = Look { view: View::Raw, ..Look::default() };
         let (samples, info) = read(&encode(&gradient(), "{}", &Encoding { look, ..Encoding::default() }).unwrap());
         assert_eq!(samples[..3], [0, 128, 255]);
-        assert_eq!((info.srgb, info.source_gamma), (None, Some(ScaledFloat::new(1.0))));
+        assert_eq!((info.srgb, info.gama_chunk), (None, Some(ScaledFloat::new(1.0))));
     }
 }
