@@ -128,8 +128,8 @@ impl Grade {
 
     /// The signal of a pixel, 0..1, from its linear Rec. 709 colour. What is negative or no number is black.
     pub fn signal(&self, rgb: [f32; 3]) -> [f32; 3] {
-        // `max` answers 0 for what is no number.
-        let light = rgb.map(|c| c.max(0.0).min(BRIGHTEST));
+        // What is no number is not above 0.
+        let light = rgb.map(|c| if c > 0.0 { c.min(BRIGHTEST) } else { 0.0 });
         self.view.signal(self.saturate(self.balance(light).map(|c| self.contrast(c))))
     }
 
