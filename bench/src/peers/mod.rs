@@ -15,7 +15,7 @@ use eyebeam_core::light::select::LightSelection;
 use eyebeam_core::render::{Monitor, Render, Settings};
 use eyebeam_core::sampler::SamplerKind;
 use eyebeam_core::scene::Scene;
-use eyebeam_io::image::ImageFormat;
+use eyebeam_io::image::{Encoding, ImageFormat};
 use serde::de::DeserializeOwned;
 use serde_json::{Value, json};
 
@@ -88,7 +88,7 @@ fn write(path: &Path, image: &Image) -> Result<(), Box<dyn Error>> {
     let bytes = if path.extension().is_some_and(|e| e == "pfm") {
         pfm(image)
     } else {
-        ImageFormat::from_path(path)?.encode(image, "{}")?
+        ImageFormat::from_path(path)?.encode(image, "{}", &Encoding::default())?
     };
     Ok(fs::write(path, bytes)?)
 }

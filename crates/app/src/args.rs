@@ -1,5 +1,7 @@
 //! The command line.
 
+mod look;
+
 use std::num::NonZeroUsize;
 use std::path::PathBuf;
 
@@ -9,6 +11,8 @@ use eyebeam_core::desc::RenderDesc;
 use eyebeam_core::film::Aov;
 use eyebeam_core::integrator::IntegratorKind;
 use eyebeam_io::scene::Override;
+
+use look::LookArgs;
 
 /// Photorealistic pictures by backward ray tracing.
 #[derive(Debug, Parser)]
@@ -22,6 +26,8 @@ pub(crate) struct Args {
 pub(crate) enum Command {
     /// Render a scene to a picture
     Render(RenderArgs),
+    /// Turn a picture of linear light (.exr, .hdr) into one for screens
+    Develop(DevelopArgs),
     /// Report every problem of a scene without rendering it
     Check(CheckArgs),
     /// Print the JSON Schema of scene files, for editors
@@ -36,7 +42,7 @@ pub(crate) enum Command {
 pub(crate) struct RenderArgs {
     /// Scene file (.toml); - reads standard input
     pub(crate) scene: PathBuf,
-    /// Picture to write (.png, .exr, .hdr); - writes a PNG to standard output [default: SCENE.png]
+    /// Picture to write (.png, .jpg, .exr, .hdr); - writes a PNG to standard output [default: SCENE.png]
     #[arg(short, long)]
     pub(crate) output: Option<PathBuf>,
     /// Samples per pixel
@@ -90,6 +96,8 @@ pub(crate) struct RenderArgs {
     /// Say more
     #[arg(short, long, conflicts_with = "quiet")]
     pub(crate) verbose: bool,
+    #[command(flatten)]
+    pub(crate) look: LookArgs,
 }
 
 impl RenderArgs {
@@ -103,6 +111,20 @@ impl RenderArgs {
 /// A quantity, or all of them.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct AovChoice(Option<Aov>);
+
+#[derive(Debug, ClapArgs)]
+pub(crate) struct DevelopArgs {
+    /// Picture of linear light (.exr, .hdr); - reads standard input
+    pub(crate) picture: PathBuf,
+    /// Picture to write (.png, .jpg, .exr, .hdr), with colours and alpha alone; - writes a PNG to standard output
+    #[arg(short, long)]
+    pub(crate) output: PathBuf,
+    /// Say nothing but errors
+    #[arg(short, long)]
+    pub(crate) quiet: bool,
+    #[command(flatten)]
+    pub(crate) look: LookArgs,
+}
 
 #[derive(Debug, ClapArgs)]
 pub(crate) struct CheckArgs {

@@ -33,6 +33,7 @@ pub mod first_hits;
 pub mod integrator;
 pub mod interaction;
 pub mod light;
+pub mod look;
 pub mod material;
 pub mod math;
 pub mod render;

@@ -1,4 +1,4 @@
-//! The bytes of a file that a scene refers to.
+//! The bytes of a file that a scene or a person refers to.
 
 use std::fs::{self, File};
 use std::io::{self, Read};
@@ -9,14 +9,26 @@ use crate::error::{Error, FileError};
 /// Longer files are refused.
 const MAX_BYTES: u64 = 2 << 30;
 
+/// All of standard input.
+///
+/// # Errors
+/// If it cannot be read, or is longer than 2 GiB.
+pub(crate) fn read_standard_input() -> Result<Vec<u8>, Error> {
+    let bytes = read_to_end(io::stdin().lock(), 0).map_err(|e| Error::read(Path::new("-"), e))?;
+    bytes.ok_or_else(|| too_long().of("-"))
+}
+
 /// All of a file.
 ///
 /// # Errors
 /// If the file system refuses, it is a folder or a device, or it is longer than 2 GiB.
 pub(crate) fn read(path: &Path) -> Result<Vec<u8>, Error> {
     let bytes = read_all(path).map_err(|e| Error::read(path, e))?;
-    let too_long = || FileError::new(format!("the file is longer than {} GiB", MAX_BYTES >> 30));
     bytes.ok_or_else(|| too_long().of(&path.display().to_string()))
+}
+
+fn too_long() -> FileError {
+    FileError::new(format!("the file is longer than {} GiB", MAX_BYTES >> 30))
 }
 
 /// None if there are more than [`MAX_BYTES`].
@@ -31,7 +43,12 @@ fn read_all(path: &Path) -> io::Result<Option<Vec<u8>>> {
     if length > MAX_BYTES {
         return Ok(None);
     }
-    let mut bytes = Vec::with_capacity(length as usize + 1);
-    file.take(MAX_BYTES + 1).read_to_end(&mut bytes)?;
+    read_to_end(file, length as usize)
+}
+
+/// None if there are more than [`MAX_BYTES`]; about `length` are expected.
+fn read_to_end(source: impl Read, length: usize) -> io::Result<Option<Vec<u8>>> {
+    let mut bytes = Vec::with_capacity(length + 1);
+    source.take(MAX_BYTES + 1).read_to_end(&mut bytes)?;
     Ok((bytes.len() as u64 <= MAX_BYTES).then_some(bytes))
 }

@@ -1,10 +1,12 @@
 //! The commands, each a file.
 
 mod check;
+mod develop;
 mod figures;
 mod render;
 mod schema;
 mod selftest;
+mod target;
 
 use std::io::{Write, stdout};
 use std::path::Path;
@@ -18,6 +20,7 @@ use crate::progress::say;
 pub(crate) fn run(args: Args) -> Result<(), Error> {
     match args.command {
         Command::Render(args) => render::run(&args),
+        Command::Develop(args) => develop::run(&args),
         Command::Check(args) => check::run(&args),
         Command::Schema => schema::run(),
         Command::Figures(args) => figures::run(&args),

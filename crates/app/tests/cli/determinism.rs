@@ -7,18 +7,28 @@ use crate::{Place, read_png, scenes};
 #[test]
 fn files_do_not_depend_on_threads_or_time() {
     let place = Place::new();
-    for format in ["png", "exr", "hdr"] {
+    let looks = [
+        ("png", ""),
+        ("png", "--view agx --exposure auto --white-balance 4000 --dither"),
+        ("png", "--view aces --contrast 1.2 --saturation 0.8 --bits 16"),
+        ("jpg", "--view filmic --dither"),
+        ("exr", ""),
+        ("exr", "--half"),
+        ("hdr", ""),
+    ];
+    for (format, look) in looks {
         let render = |name: &str, args: &str| {
-            place.run(&format!("render scene.toml -q -r 70x40 --spp 20 -o {name}.{format} {args}")).ends_with(0);
+            let command = format!("render scene.toml -q -r 70x40 --spp 20 -o {name}.{format} {look} {args}");
+            place.run(&command).ends_with(0);
             place.read(&format!("{name}.{format}"))
         };
         let first = render("a", "--threads 1");
         for args in
             ["--threads 1", "--threads 2", "--threads 7", "", "--threads 100000", "--progress json --stats s.json"]
         {
-            assert!(render("b", args) == first, "{format} {args}");
+            assert!(render("b", args) == first, "{format} {look} {args}");
         }
-        assert!(render("c", "--seed 1") != first, "{format}: another seed is another picture");
+        assert!(render("c", "--seed 1") != first, "{format} {look}: another seed is another picture");
     }
 }
 

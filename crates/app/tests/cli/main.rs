@@ -2,6 +2,7 @@
 
 mod aov;
 mod determinism;
+mod develop;
 mod examples;
 mod files;
 mod output;

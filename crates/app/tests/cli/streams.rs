@@ -67,6 +67,10 @@ fn stats() {
         "filter": {"blackman-harris": {"radius": 1.5}}, "light_selection": "tree", "transparent": false, "clamp": 0.0
     });
     assert_eq!(stats["settings"], settings);
+    let look = serde_json::json!({
+        "view": "standard", "exposure": 0.0, "white_balance": 6500.0, "contrast": 1.0, "saturation": 1.0, "dither": false
+    });
+    assert_eq!(stats["look"], look);
     assert_eq!(stats["spp"], serde_json::json!({"min": 20, "mean": 20.0, "max": 20}));
     assert_eq!(stats["stop_reason"], "spp");
     assert!((0.0..1.0).contains(&stats["error"]["mean"].as_f64().unwrap()));
@@ -89,9 +93,9 @@ fn memory_that_was_asked_for_is_enough() {
         serde_json::from_slice::<Value>(&run.stdout).unwrap()["peak_rss_bytes"].as_u64().unwrap_or(0)
     };
     let least = peak("-r 1x1");
-    for format in ["png", "exr", "hdr"] {
-        let used = peak(&format!("-r 1000x1000 -o a.{format}")).saturating_sub(least);
-        assert!(used <= 124_000_000, "{format}: {used} bytes, and 124 a pixel were foreseen");
+    for output in ["a.png", "a.png --bits 16 --exposure auto", "a.jpg", "a.exr", "a.exr --half", "a.hdr"] {
+        let used = peak(&format!("-r 1000x1000 -o {output}")).saturating_sub(least);
+        assert!(used <= 124_000_000, "{output}: {used} bytes, and 124 a pixel were foreseen");
     }
     place.run("render scene.toml -r 1000x1000 --memory 123999999").ends_with(5);
 }

@@ -7,6 +7,7 @@ fn help() {
     let place = Place::new();
     insta::assert_snapshot!("help", place.run("--help").ends_with(0).text());
     insta::assert_snapshot!("help_render", place.run("render --help").ends_with(0).text());
+    insta::assert_snapshot!("help_develop", place.run("develop --help").ends_with(0).text());
     assert_eq!(place.run("--version").ends_with(0).text(), concat!("eyebeam ", env!("CARGO_PKG_VERSION"), "\n"));
 }
 
@@ -36,7 +37,24 @@ fn wrong_command_lines_end_with_2() {
         "render scene.toml --progress loud",
         "render scene.toml -D camera.vfov",
         "render scene.toml -o a.png -o b.png",
-        "render scene.toml -o a.jpg",
+        "render scene.toml -o a.gif",
+        "render scene.toml --view kodak",
+        "render scene.toml --exposure bright",
+        "render scene.toml --exposure 33",
+        "render scene.toml --white-balance 500",
+        "render scene.toml --contrast 0",
+        "render scene.toml --saturation -1",
+        "render scene.toml --bits 12",
+        "render scene.toml --quality 0",
+        "render scene.toml -o a.jpg --bits 16",
+        "render scene.toml -o a.png --half",
+        "render scene.toml -o a.jpg -r 65536x1",
+        "render scene.toml -o a.jpg --aov depth",
+        "develop",
+        "develop a.exr",
+        "develop a.exr -o a.gif",
+        "develop a.exr -o a.hdr --half",
+        "develop a.exr -o a.png --spp 4",
         "render scene.toml -o a",
         "render scene.toml -q -v",
         "render scene.toml -o a.png --stats a.png",

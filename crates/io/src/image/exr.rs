@@ -1,4 +1,4 @@
-//! OpenEXR: 32 bit linear RGBA and any other channels, losslessly compressed.
+//! OpenEXR: linear RGBA in 32 or 16 bit and any other channels in 32, losslessly compressed.
 
 use std::io::Cursor;
 
@@ -21,8 +21,15 @@ pub(super) const REC_709: attribute::Chromaticities = attribute::Chromaticities 
 /// Names of the ids in a picture, as JSON, in an attribute of this name.
 const NAMES: &str = "id.names";
 
-pub(super) fn encode(image: &Picture, provenance: &str) -> std::result::Result<Vec<u8>, Error> {
+pub(super) fn encode(image: &Picture, provenance: &str, half: bool) -> std::result::Result<Vec<u8>, Error> {
     let alpha = |x: usize, y: usize| image.alpha().map_or(1.0, |alpha| alpha[y * image.width() as usize + x]);
+    if half {
+        let channels = SpecificChannels::rgba(|Vec2(x, y): Vec2<usize>| {
+            let [r, g, b] = image.pixel(x as u32, y as u32).map(to_half);
+            (r, g, b, to_half(alpha(x, y)))
+        });
+        return bytes(&file(image, channels, provenance)?);
+    }
     let channels = SpecificChannels::rgba(|Vec2(x, y): Vec2<usize>| {
         let [r, g, b] = image.pixel(x as u32, y as u32);
         (r, g, b, alpha(x, y))
@@ -30,7 +37,12 @@ pub(super) fn encode(image: &Picture, provenance: &str) -> std::result::Result<V
     bytes(&file(image, channels, provenance)?)
 }
 
-/// A picture with more channels than its colours. `names` says in JSON what ids stand for.
+/// The nearest number of 16 bits; it does not become infinite.
+fn to_half(c: f32) -> f16 {
+    f16::from_f32(if c.is_finite() { c.clamp(f16::MIN.to_f32(), f16::MAX.to_f32()) } else { c })
+}
+
+/// A picture with more channels than its colours. `names` says in JSON what ids stand for; `half` is for the colours.
 ///
 /// # Errors
 /// If the picture is too large for the format.
@@ -42,12 +54,18 @@ pub fn encode_channels(
     channels: Vec<film::Channel>,
     names: &str,
     provenance: &str,
+    half: bool,
 ) -> std::result::Result<Vec<u8>, Error> {
     let colors = ["R", "G", "B"].into_iter().enumerate();
-    let color = |(i, name)| AnyChannel::new(name, FlatSamples::F32(image.pixels().iter().map(|rgb| rgb[i]).collect()));
-    let alpha = image.alpha().map_or_else(|| vec![1.0; image.pixels().len()], <[f32]>::to_vec);
+    let color = |(i, name)| AnyChannel::new(name, samples(image.pixels().iter().map(move |rgb| rgb[i]), half));
     let mut list: SmallVec<[_; 4]> = colors.map(color).collect();
-    list.push(AnyChannel::new("A", FlatSamples::F32(alpha)));
+    list.push(AnyChannel::new(
+        "A",
+        match image.alpha() {
+            None => samples(image.pixels().iter().map(|_| 1.0), half),
+            Some(alpha) => samples(alpha.iter().copied(), half),
+        },
+    ));
     list.extend(channels.into_iter().map(|channel| {
         let samples = match channel.values {
             film::Values::Float(values) => FlatSamples::F32(values),
@@ -61,6 +79,10 @@ pub fn encode_channels(
     // Of several attributes in one place, the order in the file would be random.
     file.attributes.other.insert(Text::from(NAMES), plain_text(&ascii(names))?);
     bytes(&file)
+}
+
+fn samples(values: impl Iterator<Item = f32>, half: bool) -> FlatSamples {
+    if half { FlatSamples::F16(values.map(to_half).collect()) } else { FlatSamples::F32(values.collect()) }
 }
 
 /// A picture's channels as a file.
@@ -98,7 +120,7 @@ mod tests {
     fn reads_back_bit_for_bit() {
         let mut image = Picture::new(5, 40);
         image.set_pixel(4, 39, [1e-7, 0.3, 12345.678]);
-        let bytes = encode(&image, "{\"spp\":4}").unwrap();
+        let bytes = encode(&image, "{\"spp\":4}", false).unwrap();
         let file = read_first_rgba_layer_from_buffer(&bytes);
         let pixel = |x: usize, y: usize| file.layer_data.channel_data.pixels[y][x];
         assert_eq!(pixel(4, 39), [1e-7, 0.3, 12345.678, 1.0]);
@@ -118,7 +140,7 @@ mod tests {
             film::Channel { name: "id.object", values: film::Values::Id(id.clone()) },
             film::Channel { name: "Z", values: film::Values::Float(depth.clone()) },
         ];
-        let bytes = encode_channels(&image, channels, "{\"object\":[\"\",\"ä\"]}", "{}").unwrap();
+        let bytes = encode_channels(&image, channels, "{\"object\":[\"\",\"ä\"]}", "{}", false).unwrap();
         let file = read_first_flat_layer_from_buffer(&bytes);
         let list = &file.layer_data.channel_data.list;
         let names: Vec<_> = list.iter().map(|c| c.name.to_string()).collect();
@@ -130,8 +152,27 @@ mod tests {
         assert_eq!(names, &AttributeValue::Text(Text::from("{\"object\":[\"\",\"\\u00e4\"]}")));
         let file = read_first_rgba_layer_from_buffer(&bytes);
         assert_eq!(file.layer_data.channel_data.pixels[19][2], [1.0, 2.0, 3.0, 0.25]);
-        let plain = read_first_rgba_layer_from_buffer(&encode(&image, "{}").unwrap());
+        let plain = read_first_rgba_layer_from_buffer(&encode(&image, "{}", false).unwrap());
         assert_eq!(plain.layer_data.channel_data.pixels, file.layer_data.channel_data.pixels);
+    }
+
+    #[test]
+    fn half_is_the_nearest_number_of_sixteen_bits() {
+        let mut image = Picture::new(2, 1).with_alpha(vec![0.25, 1.0 / 3.0]);
+        image.set_pixel(0, 0, [1.0, 0.1, 1e9]);
+        image.set_pixel(1, 0, [-1e9, 1e-3, f32::INFINITY]);
+        let bytes = encode(&image, "{}", true).unwrap();
+        let list = read_first_flat_layer_from_buffer(&bytes).layer_data.channel_data.list;
+        assert!(list.iter().all(|channel| matches!(channel.sample_data, FlatSamples::F16(_))));
+        let file = read_first_rgba_layer_from_buffer(&bytes);
+        let half = |c: f32| f16::from_f32(c).to_f32();
+        let expected = [[1.0, half(0.1), 65504.0, 0.25], [-65504.0, half(1e-3), f32::INFINITY, half(1.0 / 3.0)]];
+        assert_eq!(file.layer_data.channel_data.pixels[0], expected);
+        let ids = vec![film::Channel { name: "id.object", values: film::Values::Id(vec![70_000, 3]) }];
+        let bytes = encode_channels(&image, ids, "{}", "{}", true).unwrap();
+        assert_eq!(read_first_rgba_layer_from_buffer(&bytes).layer_data.channel_data.pixels[0], expected);
+        let list = read_first_flat_layer_from_buffer(&bytes).layer_data.channel_data.list;
+        assert_eq!(list[4].sample_data, FlatSamples::U32(vec![70_000, 3]));
     }
 
     fn read_first_flat_layer_from_buffer(bytes: &[u8]) -> Image<Layer<AnyChannels<FlatSamples>>> {

@@ -1,26 +1,31 @@
 //! Image files. The format that is written follows from the ending of the name, that which is read from the bytes.
 
+mod encoding;
 mod exr;
 mod hdr;
+mod jpeg;
 mod png;
 mod read;
 
+pub use encoding::{Bits, Encoding};
 pub use exr::encode_channels;
-pub use read::{read_image, read_image_bytes};
+pub use read::{LinearPicture, read_image, read_image_bytes, read_linear, read_linear_bytes};
 
 use std::path::Path;
 
-use eyebeam_core::color::srgb_encode;
 use eyebeam_core::film::Image;
+use eyebeam_core::look::Look;
 
 use crate::error::Error;
 
 /// A format that pictures are written in.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum ImageFormat {
-    /// 8 bit sRGB, with straight alpha.
+    /// 8 or 16 bit, as screens show it, with straight alpha.
     Png,
-    /// 32 bit linear, with everything above white, and alpha that colours are multiplied by.
+    /// 8 bit, as screens show it, with losses; alpha is laid over black.
+    Jpeg,
+    /// 32 or 16 bit linear, with everything above white, and alpha that colours are multiplied by.
     Exr,
     /// Radiance RGBE, linear; no alpha.
     Hdr,
@@ -28,7 +33,8 @@ pub enum ImageFormat {
 
 impl ImageFormat {
     /// Formats by the endings of their names.
-    const ENDINGS: [(&str, Self); 3] = [("png", Self::Png), ("exr", Self::Exr), ("hdr", Self::Hdr)];
+    const ENDINGS: [(&str, Self); 5] =
+        [("png", Self::Png), ("jpg", Self::Jpeg), ("jpeg", Self::Jpeg), ("exr", Self::Exr), ("hdr", Self::Hdr)];
 
     /// The format of a file, by its name.
     ///
@@ -43,14 +49,26 @@ impl ImageFormat {
         })
     }
 
-    /// The file's bytes. `provenance` says in JSON what made the picture; PNG and EXR keep it under the name `eyebeam`.
+    /// Whether it holds what a screen shows, and not light.
+    pub fn is_for_screens(self) -> bool {
+        matches!(self, Self::Png | Self::Jpeg)
+    }
+
+    /// The most pixels that a side of the picture can have.
+    pub fn max_side(self) -> u32 {
+        if self == Self::Jpeg { jpeg::MAX_SIDE } else { u32::MAX }
+    }
+
+    /// The file's bytes. `provenance` says in JSON what made the picture; all but HDR keep it under the name `eyebeam`, and
+    /// those for screens their look as `eyebeam.look`.
     ///
     /// # Errors
     /// If the picture is too large for the format.
-    pub fn encode(self, image: &Image, provenance: &str) -> Result<Vec<u8>, Error> {
+    pub fn encode(self, image: &Image, provenance: &str, encoding: &Encoding) -> Result<Vec<u8>, Error> {
         match self {
-            Self::Png => png::encode(image, &ascii(provenance)),
-            Self::Exr => exr::encode(image, &ascii(provenance)),
+            Self::Png => png::encode(image, &ascii(provenance), encoding),
+            Self::Jpeg => jpeg::encode(image, &ascii(provenance), encoding),
+            Self::Exr => exr::encode(image, &ascii(provenance), encoding.half),
             Self::Hdr => hdr::encode(image),
         }
     }
@@ -58,11 +76,8 @@ impl ImageFormat {
 
 /// The picture as screens show it: 8 bit sRGB, three bytes a pixel, row by row.
 pub fn srgb_bytes(image: &Image) -> Vec<u8> {
-    image.pixels().iter().flatten().map(|&c| srgb_byte(c)).collect()
-}
-
-fn srgb_byte(linear: f32) -> u8 {
-    (srgb_encode(linear.clamp(0.0, 1.0)) * 255.0).round() as u8
+    let grade = Look::default().grade(image);
+    encoding::pixels(image, |rgb, x, y| grade.byte(rgb, x, y)).collect()
 }
 
 /// JSON in ASCII alone, which every text field takes.
@@ -87,7 +102,10 @@ mod tests {
     fn format_by_ending() {
         assert_eq!(ImageFormat::from_path(Path::new("a/b.PNG")).unwrap(), ImageFormat::Png);
         assert_eq!(ImageFormat::from_path(Path::new("b.x.exr")).unwrap(), ImageFormat::Exr);
-        for bad in ["a.jpg", "png", "a."] {
+        for jpeg in ["a.jpg", "a.JPEG"] {
+            assert_eq!(ImageFormat::from_path(Path::new(jpeg)).unwrap(), ImageFormat::Jpeg);
+        }
+        for bad in ["a.gif", "png", "a."] {
             assert!(matches!(ImageFormat::from_path(Path::new(bad)), Err(Error::UnknownFormat { .. })), "{bad}");
         }
     }

@@ -3,7 +3,7 @@
 use std::time::{Duration, Instant};
 
 use eyebeam_core::film::Image;
-use eyebeam_io::image::{ImageFormat, read_image, read_image_bytes};
+use eyebeam_io::image::{Encoding, ImageFormat, read_image, read_image_bytes, read_linear_bytes};
 use eyebeam_io::{Error, Warning};
 use proptest::prelude::*;
 
@@ -33,13 +33,15 @@ fn gradient() -> Image {
 
 #[test]
 fn what_was_written_is_read() {
-    for (format, error) in [(ImageFormat::Exr, 0.0), (ImageFormat::Hdr, 0.01), (ImageFormat::Png, 0.005)] {
+    let formats =
+        [(ImageFormat::Exr, 0.0), (ImageFormat::Hdr, 0.01), (ImageFormat::Png, 0.005), (ImageFormat::Jpeg, 0.1)];
+    for (format, error) in formats {
         let (mut image, bytes) = (gradient(), gradient());
-        let bytes = format.encode(&bytes, "{}").unwrap();
+        let bytes = format.encode(&bytes, "{}", &Encoding::default()).unwrap();
         let (read, warnings) = read_image_bytes("a", &bytes).unwrap();
         assert_eq!(warnings, []);
         assert_eq!((read.width(), read.height()), (20, 7));
-        if format == ImageFormat::Png {
+        if format.is_for_screens() {
             // It ends at white.
             let white = |p: [f32; 3]| p.map(|c| c.min(1.0));
             (0..7).for_each(|y| (0..20).for_each(|x| image.set_pixel(x, y, white(image.pixel(x, y)))));
@@ -51,11 +53,34 @@ fn what_was_written_is_read() {
 }
 
 #[test]
+fn linear_pictures_keep_their_alpha_and_what_made_them() {
+    let alpha: Vec<_> = (0..140).map(|i| i as f32 / 140.0).collect();
+    let image = gradient().with_alpha(alpha);
+    let provenance = "{\"scene\":\"a.toml\"}";
+    let of = |image: &Image, format: ImageFormat, provenance, half| {
+        let bytes = format.encode(image, provenance, &Encoding { half, ..Encoding::default() }).unwrap();
+        read_linear_bytes("a", &bytes)
+    };
+    let read = of(&image, ImageFormat::Exr, provenance, false).unwrap();
+    assert_eq!((&read.image, read.provenance.as_deref(), read.warnings), (&image, Some(provenance), Vec::new()));
+    let half = of(&image, ImageFormat::Exr, "not JSON", true).unwrap();
+    assert_eq!(half.provenance, None);
+    assert!((half.image.alpha().unwrap()[70] - 0.5).abs() < 1e-3);
+    for format in [ImageFormat::Exr, ImageFormat::Hdr] {
+        assert_eq!(of(&gradient(), format, "{}", false).unwrap().image.alpha(), None, "{format:?}");
+    }
+    for format in [ImageFormat::Png, ImageFormat::Jpeg] {
+        let error = of(&image, format, "{}", false).unwrap_err().to_string();
+        assert!(error.contains("no picture of linear light"), "{error}");
+    }
+}
+
+#[test]
 fn what_is_not_finite_is_told_once() {
     let mut image = gradient();
     image.set_pixel(3, 3, [f32::NAN, f32::INFINITY, -f32::INFINITY]);
     image.set_pixel(4, 3, [-1.0; 3]);
-    let bytes = ImageFormat::Exr.encode(&image, "{}").unwrap();
+    let bytes = ImageFormat::Exr.encode(&image, "{}", &Encoding::default()).unwrap();
     let (read, warnings) = read_image_bytes("a", &bytes).unwrap();
     assert!(
         matches!(warnings.as_slice(), [Warning { message, .. }] if message.starts_with("1 pixel had")),
@@ -123,7 +148,7 @@ fn bad_ones() {
 #[test]
 fn truncated() {
     for format in [ImageFormat::Exr, ImageFormat::Hdr, ImageFormat::Png] {
-        let bytes = format.encode(&gradient(), "{}").unwrap();
+        let bytes = format.encode(&gradient(), "{}", &Encoding::default()).unwrap();
         for end in 0..bytes.len() {
             let whole = try_image(&bytes[..end]).is_some();
             // PNG ends in a chunk that says so.
@@ -134,12 +159,12 @@ fn truncated() {
 
 #[test]
 fn sizes_that_are_too_large_are_refused_at_once() {
-    let png = ImageFormat::Png.encode(&gradient(), "{}").unwrap();
+    let png = ImageFormat::Png.encode(&gradient(), "{}", &Encoding::default()).unwrap();
     let mut large = png.clone();
     large[16..24].copy_from_slice(&[0x7f, 0xff, 0xff, 0xff, 0x7f, 0xff, 0xff, 0xff]);
     let hdr = b"#?RADIANCE\n\n-Y 100000 +X 100000\n".to_vec();
     // The last column and row of the data window.
-    let mut exr = ImageFormat::Exr.encode(&gradient(), "{}").unwrap();
+    let mut exr = ImageFormat::Exr.encode(&gradient(), "{}", &Encoding::default()).unwrap();
     let window = exr.windows(11).position(|w| w == b"dataWindow\0").unwrap() + "dataWindow\0box2i\0".len() + 4;
     exr[window + 8..window + 16].copy_from_slice(&[0xff, 0xff, 0xff, 0x0f, 0xff, 0xff, 0xff, 0x0f]);
     // Allowed, but not there.
@@ -165,7 +190,7 @@ proptest! {
         format in prop::sample::select(vec![ImageFormat::Exr, ImageFormat::Hdr, ImageFormat::Png]),
         changes in prop::collection::vec((any::<prop::sample::Index>(), any::<u8>()), 1..4),
     ) {
-        let mut bytes = format.encode(&gradient(), "{}").unwrap();
+        let mut bytes = format.encode(&gradient(), "{}", &Encoding::default()).unwrap();
         for (at, byte) in changes {
             let at = at.index(bytes.len());
             bytes[at] = byte;

@@ -5,9 +5,10 @@ use eyebeam_core::film::{Aov, Film, channels};
 use eyebeam_core::first_hits::FirstHits;
 use eyebeam_core::render::{Monitor, Settings};
 use eyebeam_core::scene::Scene;
-use eyebeam_io::image::{ImageFormat, encode_channels};
+use eyebeam_io::image::encode_channels;
 use serde::Serialize;
 
+use crate::command::target::Target;
 use crate::error::Error;
 
 /// The quantities that are asked for, in the making.
@@ -70,13 +71,13 @@ impl<'s> Aovs<'s> {
     }
 
     /// The picture's file.
-    pub(super) fn encode(&self, film: &Film, format: ImageFormat, provenance: &str) -> Result<Vec<u8>, Error> {
+    pub(super) fn encode(&self, film: &Film, target: &Target, provenance: &str) -> Result<Vec<u8>, Error> {
         let image = film.develop();
         if self.list.is_empty() {
-            return Ok(format.encode(&image, provenance)?);
+            return Ok(target.format.encode(&image, provenance, &target.encoding)?);
         }
         let hits = self.hits.as_ref().map_or(&[][..], FirstHits::pixels);
-        Ok(encode_channels(&image, channels(&self.list, hits, film), &self.names, provenance)?)
+        Ok(encode_channels(&image, channels(&self.list, hits, film), &self.names, provenance, target.encoding.half)?)
     }
 }
 

@@ -21,16 +21,17 @@ use eyebeam_io::output::check_writable;
 use eyebeam_io::scene::{Override, SceneFile};
 
 use aov::Aovs;
-use stats::{Phases, Provenance, Stats};
+use stats::{Done, Phases, Provenance, Stats};
 
 use crate::args::RenderArgs;
+use crate::command::target::Target;
 use crate::command::{is_standard, read_scene, write};
 use crate::error::Error;
 use crate::progress::{Progress, State, duration, say};
 use crate::signals::Signals;
 
 pub(super) fn run(args: &RenderArgs) -> Result<(), Error> {
-    let output = Output::new(args)?;
+    let target = target(args)?;
     let mut phases = Phases::default();
     let clock = Instant::now();
     let SceneFile { desc, warnings } = describe(args)?;
@@ -41,9 +42,9 @@ pub(super) fn run(args: &RenderArgs) -> Result<(), Error> {
     settings.threads = args.threads.unwrap_or(settings.threads);
     let aovs = args.aovs();
     settings.film.variance = aovs.contains(&Aov::Variance);
-    output.check_channels(&settings, &aovs)?;
+    check_format(&target, &settings, &aovs)?;
     check_memory(&settings, &aovs, args.memory)?;
-    output.check()?;
+    target.check_writable()?;
     if let Some(path) = args.stats.as_deref().filter(|path| !is_standard(path)) {
         check_writable(path)?;
     }
@@ -66,7 +67,7 @@ pub(super) fn run(args: &RenderArgs) -> Result<(), Error> {
         render: Render::new(&scene, settings),
         scene: Described { settings: &described, hash: &scene_hash, warnings: &warnings },
         args,
-        output: &output,
+        target: &target,
         error: None,
     };
     let clock = Instant::now();
@@ -115,45 +116,28 @@ fn check_memory(settings: &Settings, aovs: &[Aov], allowed: u64) -> Result<(), E
     if needed > allowed { Err(Error::Memory { needed, allowed }) } else { Ok(()) }
 }
 
-/// Where the picture goes.
-struct Output {
-    path: PathBuf,
-    format: ImageFormat,
+/// Where the picture goes; nothing else may go there.
+fn target(args: &RenderArgs) -> Result<Target, Error> {
+    let path = args.output.clone().unwrap_or_else(|| {
+        let stem = args.scene.file_stem().filter(|_| !is_standard(&args.scene)).unwrap_or("out".as_ref());
+        let mut name = stem.to_owned();
+        name.push(".png");
+        name.into()
+    });
+    let target = Target::new(path, args.look.encoding())?;
+    let is_scene = |stats: &PathBuf| *stats == args.scene && !is_standard(stats);
+    if args.stats.as_ref().is_some_and(|stats| *stats == target.path || is_scene(stats)) {
+        return Err(Error::Usage("--stats needs a name of its own".to_owned()));
+    }
+    Ok(target)
 }
 
-impl Output {
-    fn new(args: &RenderArgs) -> Result<Self, Error> {
-        let path = args.output.clone().unwrap_or_else(|| {
-            let stem = args.scene.file_stem().filter(|_| !is_standard(&args.scene)).unwrap_or("out".as_ref());
-            let mut name = stem.to_owned();
-            name.push(".png");
-            name.into()
-        });
-        let format = if is_standard(&path) { ImageFormat::Png } else { ImageFormat::from_path(&path)? };
-        let is_scene = |stats: &PathBuf| *stats == args.scene && !is_standard(stats);
-        if args.stats.as_ref().is_some_and(|stats| *stats == path || is_scene(stats)) {
-            return Err(Error::Usage("--stats needs a name of its own".to_owned()));
-        }
-        Ok(Self { path, format })
+/// That the format takes all that there is to write.
+fn check_format(target: &Target, settings: &Settings, aovs: &[Aov]) -> Result<(), Error> {
+    if !aovs.is_empty() && target.format != ImageFormat::Exr {
+        return Err(target.unfit("--aov needs a file of many channels", "is not", ".exr"));
     }
-
-    /// That the format takes all that there is to write.
-    fn check_channels(&self, settings: &Settings, aovs: &[Aov]) -> Result<(), Error> {
-        let path = self.path.display();
-        if !aovs.is_empty() && self.format != ImageFormat::Exr {
-            let why = format!("--aov needs a file of many channels, which `{path}` is not");
-            return Err(Error::Usage(why + "\nhint: name it in .exr (-o)"));
-        }
-        if settings.film.transparent && self.format == ImageFormat::Hdr {
-            let why = format!("a transparent picture needs alpha, which `{path}` cannot hold");
-            return Err(Error::Usage(why + "\nhint: name it in .png or .exr (-o)"));
-        }
-        Ok(())
-    }
-
-    fn check(&self) -> Result<(), Error> {
-        if is_standard(&self.path) { Ok(()) } else { Ok(check_writable(&self.path)?) }
-    }
+    target.check_picture(settings.width, settings.height, settings.film.transparent)
 }
 
 /// What is told of the scene.
@@ -169,7 +153,7 @@ struct Session<'a> {
     render: Render<'a>,
     scene: Described<'a>,
     args: &'a RenderArgs,
-    output: &'a Output,
+    target: &'a Target,
     /// The picture's error when it was last estimated.
     error: Option<ErrorEstimate>,
 }
@@ -223,8 +207,8 @@ impl Session<'_> {
 
     fn write_picture(&self) -> Result<(), Error> {
         let provenance = self.provenance().to_json();
-        let file = self.aovs.encode(self.render.film(), self.output.format, &provenance)?;
-        write(&self.output.path, &file)
+        let file = self.aovs.encode(self.render.film(), self.target, &provenance)?;
+        write(&self.target.path, &file)
     }
 
     /// Writes the picture as it is: what can be written later is not to be lost now.
@@ -235,16 +219,17 @@ impl Session<'_> {
     /// What was done, for a person and for a program.
     fn report(&self, phases: &Phases, rays: u64, signal: Option<u8>) -> Result<(), Error> {
         let settings = self.render.settings();
-        let clamped = self.render.film().clamped();
-        let warnings = self.scene.warnings;
-        let stats = Stats::new(self.provenance(), warnings, settings.threads.get(), phases, rays, clamped, signal);
+        let look = self.target.format.is_for_screens().then_some(&self.target.encoding.look);
+        let clamped_energy = self.render.film().clamped();
+        let done = Done { rays, threads: settings.threads.get(), clamped_energy, signal };
+        let stats = Stats::new(self.provenance(), look, self.scene.warnings, phases, &done);
         if !self.args.quiet {
             let error = self.error.map(|e| format!(" · error {:.1} %", 100.0 * e.mean)).unwrap_or_default();
             let seconds =
                 if phases.render < 10.0 { format!("{:.2} s", phases.render) } else { duration(phases.render) };
             say(&format!(
                 "{}: {} x {} · {:.0} spp · {seconds} · {:.1} Mray/s{error}",
-                self.output.path.display(),
+                self.target.path.display(),
                 settings.width,
                 settings.height,
                 stats.mean_spp(),

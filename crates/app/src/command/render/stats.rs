@@ -2,6 +2,7 @@
 
 use eyebeam_core::desc::RenderDesc;
 use eyebeam_core::film::{ErrorEstimate, Film, SampleCounts};
+use eyebeam_core::look::Look;
 use eyebeam_io::{Place, Warning};
 use serde::Serialize;
 
@@ -81,11 +82,22 @@ pub(super) struct Phases {
     pub(super) write: f64,
 }
 
+/// Work in numbers.
+pub(super) struct Done {
+    pub(super) rays: u64,
+    pub(super) threads: usize,
+    pub(super) clamped_energy: f64,
+    /// What ended it early.
+    pub(super) signal: Option<u8>,
+}
+
 /// What was done and how long it took.
 #[derive(Debug, Serialize)]
 pub(super) struct Stats<'a> {
     #[serde(flatten)]
     provenance: Provenance<'a>,
+    /// None of a picture that stays linear.
+    look: Option<&'a Look>,
     stop_reason: &'static str,
     nan_count: u64,
     /// Luminance that clamping has taken from the picture, in the mean over its pixels.
@@ -104,18 +116,18 @@ pub(super) struct Stats<'a> {
 impl<'a> Stats<'a> {
     pub(super) fn new(
         provenance: Provenance<'a>,
+        look: Option<&'a Look>,
         warnings: &[Warning],
-        threads: usize,
         phases: &Phases,
-        rays: u64,
-        clamped_energy: f64,
-        signal: Option<u8>,
+        work: &Done,
     ) -> Self {
+        let Done { rays, threads, clamped_energy, signal } = *work;
         let dropped = provenance.dropped;
         let dropped_warning =
             (dropped > 0).then(|| format!("{dropped} samples were no finite numbers and do not count"));
         Self {
             provenance,
+            look,
             stop_reason: if signal.is_some() { "signal" } else { "spp" },
             nan_count: dropped,
             clamped_energy,

@@ -1,6 +1,7 @@
 //! OpenEXR: the first layer that has R, G and B, or Y alone; half, float or integer, scan lines or tiles.
 //!
-//! The picture is the layer's data window. Alpha, deep data, further layers and smaller resolutions are not read.
+//! The picture is the layer's data window. Deep data, further layers and smaller resolutions are not read, and alpha only
+//! where it is asked for.
 
 use std::io::Cursor;
 
@@ -8,33 +9,72 @@ use exr::block::{self, reader::Reader};
 use exr::error::Error as ExrError;
 use exr::image::read::specific_channels::ReadSpecificChannel;
 use exr::math::Vec2;
+use exr::meta::attribute::{AttributeValue, Text};
 use exr::meta::header::Header;
 use exr::prelude::{ReadChannels, ReadLayers, read};
 use eyebeam_core::film::Image;
 
 use crate::error::FileError;
 use crate::image::exr::REC_709;
-use crate::image::read::{Decoded, check_size};
+use crate::image::read::{Decoded, LinearPicture, check_size};
 use crate::warning::Warning;
 
 /// A block of lines or a tile is decoded at once.
 const MAX_BLOCK: usize = 1 << 30;
 
 pub(super) fn decode(bytes: &[u8]) -> Decoded {
-    let wrong = |e: ExrError| FileError::new(format!("cannot decode the OpenEXR picture: {e}"));
+    let Opened { file, color, warnings, .. } = open(bytes)?;
+    let image = if color { decode_rgb(file) } else { decode_y(file) };
+    Ok((image.map_err(wrong)?, warnings))
+}
+
+/// As [`decode`], with alpha if not all of it is 1, and with the attribute that says in JSON what made the picture.
+pub(super) fn decode_linear(bytes: &[u8]) -> Result<LinearPicture, FileError> {
+    let Opened { file, color, alpha, provenance, warnings } = open(bytes)?;
+    let image = match (color, alpha) {
+        (true, true) => decode_rgba(file),
+        (true, false) => decode_rgb(file),
+        (false, _) => decode_y(file),
+    };
+    Ok(LinearPicture { image: image.map_err(wrong)?, provenance, warnings })
+}
+
+fn wrong(e: ExrError) -> FileError {
+    FileError::new(format!("cannot decode the OpenEXR picture: {e}"))
+}
+
+/// A file whose pixels are still to be decoded, and what its header tells.
+struct Opened<'b> {
+    file: Reader<Cursor<&'b [u8]>>,
+    /// Whether it has R, G and B.
+    color: bool,
+    /// Whether they come with alpha.
+    alpha: bool,
+    provenance: Option<String>,
+    warnings: Vec<Warning>,
+}
+
+fn open(bytes: &[u8]) -> Result<Opened<'_>, FileError> {
     let file = block::read(Cursor::new(bytes), false).map_err(wrong)?;
     let headers = file.headers();
     let with = |names: &[&str]| headers.iter().find(|h| !h.deep && names.iter().all(|n| channel(h, n)));
     let color = with(&["R", "G", "B"]);
     let header = color.or_else(|| with(&["Y"])).ok_or_else(|| no_channels(headers))?;
     let Vec2(width, height) = header.layer_size;
-    check_size(width as u64, height as u64, 0)?;
+    check_size(width as u64, height as u64, size_of::<f32>() as u64)?;
     if header.max_block_byte_size() > MAX_BLOCK {
         return Err(FileError::new("the blocks of the OpenEXR picture are too large").hint("store it in scan lines"));
     }
-    let warnings = warnings(header, color.is_none());
-    let image = if color.is_some() { decode_rgb(file) } else { decode_y(file) };
-    Ok((image.map_err(wrong)?, warnings))
+    let (color, alpha) = (color.is_some(), channel(header, "A"));
+    let (provenance, warnings) = (provenance(header), warnings(header, !color));
+    Ok(Opened { file, color, alpha, provenance, warnings })
+}
+
+fn provenance(header: &Header) -> Option<String> {
+    let AttributeValue::Text(text) = header.own_attributes.other.get(&Text::from("eyebeam"))? else { return None };
+    let text = text.to_string();
+    // Anybody may have written it.
+    serde_json::from_str::<serde_json::Map<_, _>>(&text).is_ok().then_some(text)
 }
 
 fn channel(header: &Header, name: &str) -> bool {
@@ -73,6 +113,21 @@ fn decode_rgb(file: Reader<Cursor<&[u8]>>) -> Result<Image, ExrError> {
     );
     let file = pixels.first_valid_layer().all_attributes().non_parallel().from_chunks(file)?;
     Ok(file.layer_data.channel_data.pixels)
+}
+
+fn decode_rgba(file: Reader<Cursor<&[u8]>>) -> Result<Image, ExrError> {
+    let pixels = read().no_deep_data().largest_resolution_level().specific_channels();
+    let pixels = pixels.required("R").required("G").required("B").required("A");
+    let pixels = pixels.collect_pixels(
+        |Vec2(width, height), _| (Image::new(width as u32, height as u32), vec![0.0; width * height]),
+        |(image, alpha): &mut (Image, Vec<f32>), Vec2(x, y), (r, g, b, a): (f32, f32, f32, f32)| {
+            image.set_pixel(x as u32, y as u32, [r, g, b]);
+            alpha[y * image.width() as usize + x] = if a.is_finite() { a } else { 0.0 };
+        },
+    );
+    let file = pixels.first_valid_layer().all_attributes().non_parallel().from_chunks(file)?;
+    let (image, alpha) = file.layer_data.channel_data.pixels;
+    Ok(if alpha.iter().all(|&a| a == 1.0) { image } else { image.with_alpha(alpha) })
 }
 
 fn decode_y(file: Reader<Cursor<&[u8]>>) -> Result<Image, ExrError> {

@@ -39,6 +39,49 @@ pub fn read_image_bytes(name: &str, bytes: &[u8]) -> Result<(Image, Vec<Warning>
     Ok((image, warnings))
 }
 
+/// A picture of linear light, as a renderer wrote it.
+#[derive(Clone, Debug, PartialEq)]
+pub struct LinearPicture {
+    /// Linear Rec. 709, finite and not negative, and its alpha.
+    pub image: Image,
+    /// What made it, as the JSON that Eyebeam writes.
+    pub provenance: Option<String>,
+    /// What could not be kept.
+    pub warnings: Vec<Warning>,
+}
+
+/// Reads an OpenEXR or Radiance picture with its alpha and with what it says of itself, from a file or, for `-`, from
+/// standard input.
+///
+/// # Errors
+/// As [`read_image`], and if the picture is of another format.
+pub fn read_linear(path: &Path) -> Result<LinearPicture, Error> {
+    let bytes = if path == Path::new("-") { file::read_standard_input()? } else { file::read(path)? };
+    read_linear_bytes(&path.display().to_string(), &bytes)
+}
+
+/// As [`read_linear`], from the bytes of a file; `name` stands for it in errors.
+///
+/// # Errors
+/// If the bytes are damaged, the picture is too large, or of another format.
+pub fn read_linear_bytes(name: &str, bytes: &[u8]) -> Result<LinearPicture, Error> {
+    let mut picture = decode_linear(bytes).map_err(|e| e.of(name))?;
+    picture.warnings.extend(repair::repair(&mut picture.image));
+    Ok(picture)
+}
+
+fn decode_linear(bytes: &[u8]) -> Result<LinearPicture, FileError> {
+    match bytes {
+        [0x76, 0x2f, 0x31, 0x01, ..] => exr::decode_linear(bytes),
+        [b'#', b'?', ..] => {
+            let (image, warnings) = hdr::decode(bytes)?;
+            Ok(LinearPicture { image, provenance: None, warnings })
+        }
+        [] => Err(FileError::new("the picture is empty")),
+        _ => Err(FileError::new("this is no picture of linear light").hint("OpenEXR and Radiance HDR are read")),
+    }
+}
+
 fn decode(bytes: &[u8]) -> Decoded {
     match bytes {
         [0x76, 0x2f, 0x31, 0x01, ..] => exr::decode(bytes),
