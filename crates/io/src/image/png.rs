@@ -38,7 +38,7 @@ fn bytes_of(image: &Image, grade: &Grade) -> Vec<u8> {
     match image.alpha() {
         None => pixels(image, |rgb, x, y| grade.byte(rgb, x, y)).collect(),
         Some(alpha) => pixels(image, |rgb, x, y| {
-            let alpha = alpha[(y * image.width() + x) as usize];
+            let alpha = alpha[y as usize * image.width() as usize + x as usize];
             let [r, g, b] = grade.byte(straight(rgb, alpha), x, y);
             [r, g, b, (alpha.clamp(0.0, 1.0) * 255.0).round() as u8]
         })
@@ -51,7 +51,7 @@ fn words_of(image: &Image, grade: &Grade) -> Vec<u8> {
     match image.alpha() {
         None => pixels(image, |rgb, _, _| grade.word(rgb)).flat_map(u16::to_be_bytes).collect(),
         Some(alpha) => pixels(image, |rgb, x, y| {
-            let alpha = alpha[(y * image.width() + x) as usize];
+            let alpha = alpha[y as usize * image.width() as usize + x as usize];
             let [r, g, b] = grade.word(straight(rgb, alpha));
             [r, g, b, (alpha.clamp(0.0, 1.0) * 65535.0).round() as u16]
         })
