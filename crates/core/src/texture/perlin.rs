@@ -41,7 +41,7 @@ fn gradient(lattice: Vec3) -> Vec3 {
     ];
     let [x, y, z] = lattice.to_array().map(|c| c as i32 as u32);
     let hash = mix(mix(u64::from(x) << 32 | u64::from(y)) ^ u64::from(z).wrapping_mul(GAMMA));
-    EDGES[((hash >> 32) * 12 >> 32) as usize].into()
+    EDGES[(((hash >> 32) * 12) >> 32) as usize].into()
 }
 
 /// Layers of noise, each twice as fine and half as strong as the one before: about 0, mostly within -1..1.
