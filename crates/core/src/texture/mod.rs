@@ -168,14 +168,20 @@ pub(crate) fn compile(textures: &BTreeMap<String, TextureDesc>) -> Vec<TextureDe
 
 /// Notes names that do not exist, and textures that are made of themselves.
 pub(crate) fn check(textures: &BTreeMap<String, TextureDesc>, c: &mut Check) {
+    let mut nesting = Nesting { textures, depth: BTreeMap::new() };
     for (name, texture) in textures {
         c.within(name, |c| {
             texture.check(c);
             let (kind, colors) = texture.colors();
             c.within(kind, |c| colors.into_iter().for_each(|(key, color)| check_name(key, color, textures, c)));
-            if let Some(way) = way_back(name, textures) {
+            let Err(way) = nesting.depth(&mut Vec::new(), name) else { return };
+            let comes_back = way.len() > 1 && way.first() == way.last();
+            if comes_back {
                 let message = format!("the texture is made of itself: {}", way.join(" > "));
                 c.problem(kind, message, Some("give one of them a colour instead".to_owned()));
+            } else if way.last().is_some_and(|last| !way[..way.len() - 1].contains(last)) {
+                let hint = format!("at most {} are allowed", Nesting::MOST);
+                c.problem(kind, "the texture is made of too many textures within each other", Some(hint));
             }
         });
     }
@@ -195,34 +201,37 @@ pub(crate) fn check_name(key: &str, color: &Color, textures: &BTreeMap<String, T
     c.problem(key, format!("there is no texture `{name}`"), Some(hint));
 }
 
-/// From a texture over those that it is made of back to it, if there is such a way.
-fn way_back<'d>(start: &'d str, textures: &'d BTreeMap<String, TextureDesc>) -> Option<Vec<&'d str>> {
-    // Breadth first; each texture is visited once.
-    let mut came_from = BTreeMap::new();
-    let mut waiting = std::collections::VecDeque::from([start]);
-    while let Some(name) = waiting.pop_front() {
-        for (_, color) in textures.get(name).map(|texture| texture.colors().1).unwrap_or_default() {
-            let Color::Texture(TextureName { name: next, .. }) = color else { continue };
-            if next == start {
-                let mut way = vec![start, name];
-                while let Some(&before) = came_from.get(way[way.len() - 1]) {
-                    way.push(before);
-                }
-                if name == start {
-                    way.pop();
-                }
-                way.reverse();
-                way.push(start);
-                way.dedup();
-                return Some(if way.len() == 1 { vec![start, start] } else { way });
-            }
-            if textures.contains_key(next) && next != start && !came_from.contains_key(next.as_str()) {
-                came_from.insert(next.as_str(), name);
-                waiting.push_back(next);
+/// How deep textures are made of one another.
+struct Nesting<'d> {
+    textures: &'d BTreeMap<String, TextureDesc>,
+    /// Of those that are known not to lead too deep or back to themselves.
+    depth: BTreeMap<&'d str, usize>,
+}
+
+impl<'d> Nesting<'d> {
+    /// The most textures within each other.
+    const MOST: usize = 16;
+
+    /// The depth below the last texture of a way, itself counted, or the way on which it is too deep or comes back.
+    fn depth(&mut self, way: &mut Vec<&'d str>, name: &'d str) -> Result<usize, Vec<&'d str>> {
+        if let Some(&depth) = self.depth.get(name) {
+            return if way.len() + depth > Self::MOST { Err(way.clone()) } else { Ok(depth) };
+        }
+        let comes_back = way.contains(&name);
+        way.push(name);
+        if comes_back || way.len() > Self::MOST {
+            return Err(way.clone());
+        }
+        let mut below = 0;
+        for (_, color) in self.textures.get(name).map(|texture| texture.colors().1).unwrap_or_default() {
+            if let Color::Texture(TextureName { name, .. }) = color {
+                below = below.max(self.depth(way, name)?);
             }
         }
+        way.pop();
+        self.depth.insert(name, below + 1);
+        Ok(below + 1)
     }
-    None
 }
 
 #[cfg(test)]
@@ -258,6 +267,22 @@ mod tests {
             TexturesAt { textures: &textures, at }.color(0).to_rgb()[0]
         };
         assert_eq!([color(Vec3::splat(0.5)), color(Vec3::new(1.5, 0.5, 0.5))], [1.0, 0.0]);
+    }
+
+    #[test]
+    fn not_too_many_within_each_other() {
+        let chain = |n: usize| {
+            let texture = |i: usize| {
+                let inner = if i + 1 < n { named(&format!("t{:05}", i + 1)) } else { Color::Rgb(Rgb::grey(0.5)) };
+                (format!("t{i:05}"), checker(inner.clone(), inner))
+            };
+            let textures: BTreeMap<_, _> = (0..n).map(texture).collect();
+            let mut c = Check::default();
+            check(&textures, &mut c);
+            c.into_problems().len()
+        };
+        assert_eq!([chain(1), chain(16), chain(17), chain(20)], [0, 0, 1, 4]);
+        assert!(chain(20_000) > 0);
     }
 
     #[test]
