@@ -150,10 +150,7 @@ impl SceneDesc {
             for (name, material) in &self.material {
                 c.within(name, |c| {
                     material.check(c);
-                    let (kind, colors) = material.colors();
-                    c.within(kind, |c| {
-                        colors.into_iter().for_each(|(key, color)| texture::check_name(key, color, &self.texture, c));
-                    });
+                    texture::check_names(material.clone().colors(), &self.texture, c);
                 });
             }
         });
@@ -186,14 +183,7 @@ impl SceneDesc {
         else {
             return;
         };
-        let mut names: Vec<_> = self.material.keys().take(12).map(|n| format!("`{n}`")).collect();
-        if self.material.len() > names.len() {
-            names.push("...".to_owned());
-        }
-        let hint = match names[..] {
-            [] => "the scene has no materials; add one as [material.NAME.KIND]".to_owned(),
-            _ => format!("materials are {}", names.join(", ")),
-        };
-        c.problem("material", format!("there is no material `{name}`"), Some(hint));
+        let words = ["material", "materials", "add one as [material.NAME.KIND]"];
+        c.no_such("material", words, name, self.material.keys());
     }
 }

@@ -90,7 +90,7 @@ impl Scene {
             materials.push(material.clone());
         }
         let numbers = texture::Numbers::new(&desc.texture);
-        materials.iter_mut().for_each(|material| numbers.resolve(material.colors_mut()));
+        materials.iter_mut().for_each(|material| numbers.resolve(material.colors().1));
         let textures = texture::compile(&desc.texture);
         let (mut primitives, mut object_of, mut objects) = (Vec::new(), Vec::new(), Vec::new());
         for (_, _, shape) in desc.shape.iter() {

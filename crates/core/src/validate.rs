@@ -56,6 +56,26 @@ impl Checker {
         }
     }
 
+    /// Notes that nothing has the name at `key`, and tells a few names that there are of this `kind`.
+    pub(crate) fn no_such<'n>(
+        &mut self,
+        key: &str,
+        [kind, kinds, otherwise]: [&str; 3],
+        name: &str,
+        names: impl IntoIterator<Item = &'n String>,
+    ) {
+        const MOST: usize = 12;
+        let mut names = names.into_iter();
+        let mut some: Vec<_> = names.by_ref().take(MOST).map(|name| format!("`{name}`")).collect();
+        some.extend(names.next().map(|_| "...".to_owned()));
+        let hint = if some.is_empty() {
+            format!("the scene has no {kinds}; {otherwise}")
+        } else {
+            format!("{kinds} are {}", some.join(", "))
+        };
+        self.problem(key, format!("there is no {kind} `{name}`"), Some(hint));
+    }
+
     /// Notes that nobody has read the file that is named.
     pub(crate) fn not_loaded(&mut self, file: &str) {
         let hint = "readers of scenes load files; a program that makes a scene must give what is in them".to_owned();

@@ -1,5 +1,11 @@
 //! A picture: linear radiance, pixel by pixel.
 
+use glam::Vec2;
+use schemars::JsonSchema;
+use serde::{Deserialize, Serialize};
+
+use crate::color::Spectrum;
+
 /// Linear Rec. 709 red, green and blue, times alpha if there is one; row by row from the top left.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Image {
@@ -48,6 +54,24 @@ impl Image {
         self.pixels[self.index(x, y)]
     }
 
+    /// The picture at a place, each coordinate 0..1 from the left and from the top: interpolated in both directions between
+    /// the middles of pixels. Black if it has none.
+    pub fn bilinear(&self, place: Vec2, wrap: Wrap) -> Spectrum {
+        if self.pixels.is_empty() {
+            return Spectrum::BLACK;
+        }
+        // In pixels from the middle of the first one.
+        let at = place * Vec2::new(self.width as f32, self.height as f32) - 0.5;
+        let (first, rest) = (at.floor(), at - at.floor());
+        let pixel = |dx: i64, dy: i64| {
+            let x = wrap.index(first.x as i64 + dx, self.width.into());
+            let y = wrap.index(first.y as i64 + dy, self.height.into());
+            Spectrum::from_rgb(self.pixel(x as u32, y as u32))
+        };
+        let in_row = |dy: i64| pixel(0, dy).lerp(pixel(1, dy), rest.x);
+        in_row(0).lerp(in_row(1), rest.y)
+    }
+
     /// Replaces the pixel in column `x` of row `y`.
     ///
     /// # Panics
@@ -69,5 +93,32 @@ impl Image {
     /// The share of each pixel that is covered, row by row; none if all are.
     pub fn alpha(&self) -> Option<&[f32]> {
         self.alpha.as_deref()
+    }
+}
+
+/// What lies beyond the edges of a picture.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
+#[serde(rename_all = "kebab-case")]
+pub enum Wrap {
+    /// The same picture, again and again.
+    #[default]
+    Repeat,
+    /// The picture and its mirror image, in turn.
+    Mirror,
+    /// Its outermost pixels.
+    Clamp,
+}
+
+impl Wrap {
+    /// The pixel that stands for pixel `i` in a row of `n`.
+    fn index(self, i: i64, n: i64) -> i64 {
+        match self {
+            Self::Repeat => i.rem_euclid(n),
+            Self::Mirror => {
+                let i = i.rem_euclid(2 * n);
+                i.min(2 * n - 1 - i)
+            }
+            Self::Clamp => i.clamp(0, n - 1),
+        }
     }
 }

@@ -14,7 +14,7 @@ mod tile;
 pub use aov::{Aov, Channel, FirstHit, Ids, Values, channels};
 pub use detail::{FilmOptions, PixelDetail};
 pub use filter::{BlackmanHarris, BoxFilter, Filter, FilterDesc, FilterSample, Gaussian, Mitchell, Tent};
-pub use image::Image;
+pub use image::{Image, Wrap};
 pub use seen::Seen;
 pub use tile::{PixelMut, PixelSum, Tile};
 

@@ -21,7 +21,7 @@ use serde::{Deserialize, Serialize};
 
 use crate::array::array;
 use crate::color::{Rgb, Spectrum};
-use crate::film::Image;
+use crate::film::{Image, Wrap};
 use crate::light::select::LightBounds;
 use crate::light::unscaled;
 use crate::math::Pose;
@@ -112,21 +112,7 @@ impl Projector {
         }
         let place = local.truncate() / (local.z * self.half);
         let is_inside = place.x.abs() <= 1.0 && place.y.abs() <= 1.0;
-        if is_inside { self.bilinear(0.5 * place + 0.5) * self.scale } else { Spectrum::BLACK }
-    }
-
-    /// The picture at a place in 0..1 from the left and from the top; to the edges it is continued evenly.
-    #[inline]
-    fn bilinear(&self, uv: Vec2) -> Spectrum {
-        let (width, height) = (self.image.width(), self.image.height());
-        let axis = |u: f32, n: u32| {
-            let x = (u * n as f32 - 0.5).clamp(0.0, (n - 1) as f32);
-            let first = x as u32;
-            (first, (first + 1).min(n - 1), x - first as f32)
-        };
-        let ((x0, x1, fx), (y0, y1, fy)) = (axis(uv.x, width), axis(uv.y, height));
-        let pixel = |x, y| Spectrum::from_rgb(self.image.pixel(x, y));
-        pixel(x0, y0).lerp(pixel(x1, y0), fx).lerp(pixel(x0, y1).lerp(pixel(x1, y1), fx), fy)
+        if is_inside { self.image.bilinear(0.5 * place + 0.5, Wrap::Clamp) * self.scale } else { Spectrum::BLACK }
     }
 
     pub(super) fn bounds(&self) -> LightBounds {

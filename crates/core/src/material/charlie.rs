@@ -14,9 +14,9 @@
 use std::f32::consts::TAU;
 use std::sync::LazyLock;
 
-use glam::Vec3;
+use glam::{FloatExt, Vec3};
 
-use crate::math::sin_cos_turns;
+use crate::math::{interpolate, place, sin_cos_turns};
 
 /// Fibres of one roughness. Directions are above the surface.
 #[derive(Clone, Copy, Debug)]
@@ -71,19 +71,18 @@ impl Charlie {
     /// E: the share of the light at an angle that is scattered.
     pub(crate) fn share(&self, cos: f32) -> f32 {
         let (row, rest) = self.row();
-        let (column, across) = split(cos.clamp(0.0, 1.0).sqrt(), Table::COLUMNS);
-        let at = |row: usize| mix(TABLE.shares[row][column], TABLE.shares[row][column + 1], across);
-        mix(at(row), at(row + 1), rest)
+        let at = |row: usize| interpolate(&TABLE.shares[row], cos.clamp(0.0, 1.0).sqrt());
+        at(row).lerp(at(row + 1), rest)
     }
 
     /// Ē: the mean of E, ∫ E cos θ dω / π.
     pub(crate) fn mean_share(&self) -> f32 {
         let (row, rest) = self.row();
-        mix(TABLE.means[row], TABLE.means[row + 1], rest)
+        TABLE.means[row].lerp(TABLE.means[row + 1], rest)
     }
 
     fn row(&self) -> (usize, f32) {
-        split((self.roughness - Self::MIN_ROUGHNESS) / (1.0 - Self::MIN_ROUGHNESS), Table::ROWS)
+        place((self.roughness - Self::MIN_ROUGHNESS) / (1.0 - Self::MIN_ROUGHNESS), Table::ROWS)
     }
 
     /// The shares at the columns of the table, by midpoints in √cos θᵢ and the azimuth.
@@ -135,22 +134,11 @@ impl Table {
         const STEP: f32 = 1.0 / (Table::COLUMNS - 1) as f32;
         // With x = x₀ + STEP t, E = E₀ + (E₁ − E₀) t; Simpson's rule is off by 1e-7.
         let piece = |(i, pair): (usize, &[f32])| {
-            let at = |t: f32| mix(pair[0], pair[1], t) * 4.0 * ((i as f32 + t) * STEP).powi(3);
+            let at = |t: f32| pair[0].lerp(pair[1], t) * 4.0 * ((i as f32 + t) * STEP).powi(3);
             (at(0.0) + 4.0 * at(0.5) + at(1.0)) * STEP / 6.0
         };
         row.windows(2).enumerate().map(piece).sum()
     }
-}
-
-/// The step below a place in 0..=1, of all that lie between `count` nodes, and how far on it is.
-fn split(place: f32, count: usize) -> (usize, f32) {
-    let place = place * (count - 1) as f32;
-    let step = (place as usize).min(count - 2);
-    (step, place - step as f32)
-}
-
-fn mix(a: f32, b: f32, t: f32) -> f32 {
-    a + (b - a) * t
 }
 
 #[cfg(test)]

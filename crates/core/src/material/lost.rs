@@ -15,10 +15,10 @@
 use std::array::from_fn;
 use std::sync::LazyLock;
 
-use glam::{Vec2, Vec3};
+use glam::{FloatExt, Vec2, Vec3};
 
 use crate::material::microfacet::{Ggx, reflect_at};
-use crate::math::sin_cos_turns;
+use crate::math::{interpolate, place, sin_cos_turns};
 
 /// 1 − E(w) for a `w` above the surface, 0..1.
 #[inline(never)]
@@ -35,7 +35,7 @@ pub(super) fn mean_lost(ggx: Ggx) -> f32 {
     } else {
         let (aspect, between) = place(ANISOTROPIC.aspect(ggx), ASPECTS);
         let [near, far] = [aspect, aspect + 1].map(|i| interpolate(&ANISOTROPIC.mean[i], alpha.sqrt()));
-        near + (far - near) * between
+        near.lerp(far, between)
     };
     mean_over_alpha * alpha
 }
@@ -49,20 +49,6 @@ const AZIMUTHS: usize = 4;
 
 static ISOTROPIC: LazyLock<Isotropic> = LazyLock::new(Isotropic::new);
 static ANISOTROPIC: LazyLock<Anisotropic> = LazyLock::new(Anisotropic::new);
-
-/// The step of `count` steps over 0..=1 that `t` comes after, and how far after it.
-#[inline]
-fn place(t: f32, count: usize) -> (usize, f32) {
-    let t = t.clamp(0.0, 1.0) * (count - 1) as f32;
-    let step = (t as usize).min(count - 2);
-    (step, t - step as f32)
-}
-
-#[inline]
-fn interpolate(values: &[f32], t: f32) -> f32 {
-    let (i, between) = place(t, values.len());
-    values[i] + (values[i + 1] - values[i]) * between
-}
 
 /// Step `i` of `count` over 0..=1.
 fn step(i: usize, count: usize) -> f32 {
@@ -101,7 +87,7 @@ impl<const N: usize> Grid<N> {
         let (row, between) = place(alpha.sqrt(), N);
         let column = cos * (1.0 + along) / (cos + along);
         let [near, far] = [row, row + 1].map(|row| interpolate(&self.0[row], column));
-        near + (far - near) * between
+        near.lerp(far, between)
     }
 }
 
@@ -205,9 +191,9 @@ impl Anisotropic {
         let (turn, between_turns) = place((along - alphas.y) / range, AZIMUTHS);
         let [near, far] = [aspect, aspect + 1].map(|i| {
             let [near, far] = [turn, turn + 1].map(|j| self.grids[i][j].at(ggx.alpha(), along, w.z));
-            near + (far - near) * between_turns
+            near.lerp(far, between_turns)
         });
-        near + (far - near) * between_aspects
+        near.lerp(far, between_aspects)
     }
 }
 

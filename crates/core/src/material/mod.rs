@@ -103,32 +103,17 @@ impl MaterialDesc {
     }
 
     /// The key of its kind, and those of its colours that may be textures, by their keys.
-    pub(crate) fn colors(&self) -> (&'static str, Vec<(&'static str, &Color)>) {
+    pub(crate) fn colors(&mut self) -> (&'static str, Vec<(&'static str, &mut Color)>) {
         match self {
-            Self::Lambertian(m) => ("lambertian", vec![("albedo", &m.albedo)]),
-            Self::Metal(m) => ("metal", vec![("albedo", &m.albedo)]),
-            Self::OrenNayar(m) => ("oren-nayar", vec![("albedo", &m.albedo)]),
+            Self::Lambertian(m) => ("lambertian", vec![("albedo", &mut m.albedo)]),
+            Self::OrenNayar(m) => ("oren-nayar", vec![("albedo", &mut m.albedo)]),
             Self::DiffuseTransmission(_) => ("diffuse-transmission", vec![]),
             Self::Sheen(_) => ("sheen", vec![]),
+            Self::Metal(m) => ("metal", vec![("albedo", &mut m.albedo)]),
             Self::Conductor(_) => ("conductor", vec![]),
             Self::Dielectric(_) => ("dielectric", vec![]),
             Self::ThinDielectric(_) => ("thin-dielectric", vec![]),
-            Self::Emissive(m) => ("emissive", vec![("albedo", &m.albedo)]),
-        }
-    }
-
-    /// The same colours.
-    pub(crate) fn colors_mut(&mut self) -> Vec<&mut Color> {
-        match self {
-            Self::Lambertian(m) => vec![&mut m.albedo],
-            Self::Metal(m) => vec![&mut m.albedo],
-            Self::Emissive(m) => vec![&mut m.albedo],
-            Self::OrenNayar(m) => vec![&mut m.albedo],
-            Self::DiffuseTransmission(_)
-            | Self::Sheen(_)
-            | Self::Conductor(_)
-            | Self::Dielectric(_)
-            | Self::ThinDielectric(_) => vec![],
+            Self::Emissive(m) => ("emissive", vec![("albedo", &mut m.albedo)]),
         }
     }
 
@@ -177,6 +162,14 @@ pub struct BsdfSample {
     /// By what the index of refraction changes along the path: that on the side of `wi` over that on the side of `wo`;
     /// 1 for reflection. `weight` eta² is a share of energy, at most 1.
     pub eta: f32,
+}
+
+impl BsdfSample {
+    /// A direction of which the lobe says `eval` and `pdf`; none if no light comes from there.
+    #[inline]
+    fn of_eval(wi: Vec3, (eval, pdf): (Spectrum, f32)) -> Option<Self> {
+        (!eval.is_black()).then(|| Self { wi, weight: eval * (1.0 / pdf), pdf, delta: false, eta: 1.0 })
+    }
 }
 
 impl Bsdf {

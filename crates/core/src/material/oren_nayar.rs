@@ -80,11 +80,7 @@ impl OrenNayarBsdf {
         let side = 1.0_f32.copysign(wo.z);
         let wi = Lobes::new(upright(wo, side), self.roughness).sample(uc, u)?;
         let wi = upright(wi, side);
-        let (eval, pdf) = self.eval_pdf(wo, wi);
-        if eval.is_black() {
-            return None;
-        }
-        Some(BsdfSample { wi, weight: eval * (1.0 / pdf), pdf, delta: false, eta: 1.0 })
+        BsdfSample::of_eval(wi, self.eval_pdf(wo, wi))
     }
 
     #[inline(never)]

@@ -79,11 +79,7 @@ impl SheenBsdf {
         let chance = self.chance_of_fibres(&Charlie::from_roughness(self.roughness), wo.z.abs());
         let mut wi = if uc < chance { uniform_sphere(u) } else { cosine_hemisphere(u) };
         wi.z = wi.z.abs().copysign(wo.z);
-        let (eval, pdf) = self.eval_pdf(wo, wi);
-        if eval.is_black() {
-            return None;
-        }
-        Some(BsdfSample { wi, weight: eval * (1.0 / pdf), pdf, delta: false, eta: 1.0 })
+        BsdfSample::of_eval(wi, self.eval_pdf(wo, wi))
     }
 
     #[inline(never)]

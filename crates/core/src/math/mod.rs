@@ -6,6 +6,7 @@ mod offset;
 mod pose;
 mod reflect;
 mod renormalize;
+mod steps;
 mod trig;
 
 pub use frame::Frame;
@@ -14,4 +15,5 @@ pub use offset::clearance;
 pub(crate) use pose::Pose;
 pub use reflect::{reflect, reflect_at, refract};
 pub use renormalize::renormalize;
+pub(crate) use steps::{interpolate, place};
 pub use trig::{sin_cos_eighth, sin_cos_turns};

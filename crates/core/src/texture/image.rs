@@ -9,11 +9,12 @@
 
 use std::sync::Arc;
 
+use glam::Vec2;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 use crate::color::Spectrum;
-use crate::film::Image;
+use crate::film::{Image, Wrap};
 use crate::texture::{Mapping, Space, TexturePoint};
 use crate::validate::Checker;
 
@@ -34,33 +35,6 @@ pub struct ImageTexture {
     pub image: Option<Arc<Image>>,
 }
 
-/// What lies beyond the edges of a picture.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
-#[serde(rename_all = "kebab-case")]
-pub enum Wrap {
-    /// The same picture, again and again.
-    #[default]
-    Repeat,
-    /// The picture and its mirror image, in turn.
-    Mirror,
-    /// Its outermost pixels.
-    Clamp,
-}
-
-impl Wrap {
-    /// The pixel that stands for pixel `i` in a row of `n`.
-    fn index(self, i: i64, n: i64) -> i64 {
-        match self {
-            Self::Repeat => i.rem_euclid(n),
-            Self::Mirror => {
-                let i = i.rem_euclid(2 * n);
-                i.min(2 * n - 1 - i)
-            }
-            Self::Clamp => i.clamp(0, n - 1),
-        }
-    }
-}
-
 impl ImageTexture {
     pub(super) fn check(&self, c: &mut Checker) {
         self.mapping.check(c);
@@ -72,25 +46,14 @@ impl ImageTexture {
     pub(super) fn color(&self, at: &TexturePoint) -> Spectrum {
         let Some(image) = &self.image else { return Spectrum::BLACK };
         let place = self.mapping.place(at, Space::Uv);
-        let (width, height) = (image.width(), image.height());
-        // In pixels from the middle of the first one.
-        let (x, y) = (place.x * width as f32 - 0.5, (1.0 - place.y) * height as f32 - 0.5);
-        let (column, row) = (x.floor(), y.floor());
-        let (right, below) = (x - column, y - row);
-        let pixel = |dx: i64, dy: i64| {
-            let x = self.wrap.index(column as i64 + dx, width.into());
-            let y = self.wrap.index(row as i64 + dy, height.into());
-            Spectrum::from_rgb(image.pixel(x as u32, y as u32))
-        };
-        let in_row = |dy: i64| pixel(0, dy).lerp(pixel(1, dy), right);
-        in_row(0).lerp(in_row(1), below)
+        image.bilinear(Vec2::new(place.x, 1.0 - place.y), self.wrap)
     }
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
-    use glam::{Vec2, Vec3};
+    use glam::Vec3;
 
     /// Red, green; blue, white: as it is written from the top left.
     fn four(wrap: Wrap) -> ImageTexture {

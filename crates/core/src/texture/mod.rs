@@ -32,7 +32,7 @@ use crate::validate::Checker as Check;
 
 pub use checker::Checker;
 pub use color::{Color, TextureName};
-pub use image::{ImageTexture, Wrap};
+pub use image::ImageTexture;
 pub use mapping::{Mapping, Space};
 pub use marble::Marble;
 pub use noise::Noise;
@@ -118,23 +118,13 @@ impl TextureDesc {
     }
 
     /// The key of its kind, and the colours that it is made of, by their keys.
-    pub(crate) fn colors(&self) -> (&'static str, Vec<(&'static str, &Color)>) {
+    fn colors(&mut self) -> (&'static str, Vec<(&'static str, &mut Color)>) {
         match self {
             Self::Image(_) => ("image", vec![]),
-            Self::Checker(t) => ("checker", vec![("even", &t.even), ("odd", &t.odd)]),
-            Self::Noise(t) => ("noise", vec![("dark", &t.dark), ("light", &t.light)]),
-            Self::Marble(t) => ("marble", vec![("dark", &t.dark), ("light", &t.light)]),
-            Self::Wood(t) => ("wood", vec![("dark", &t.dark), ("light", &t.light)]),
-        }
-    }
-
-    fn colors_mut(&mut self) -> Vec<&mut Color> {
-        match self {
-            Self::Image(_) => vec![],
-            Self::Checker(t) => vec![&mut t.even, &mut t.odd],
-            Self::Noise(t) => vec![&mut t.dark, &mut t.light],
-            Self::Marble(t) => vec![&mut t.dark, &mut t.light],
-            Self::Wood(t) => vec![&mut t.dark, &mut t.light],
+            Self::Checker(t) => ("checker", vec![("even", &mut t.even), ("odd", &mut t.odd)]),
+            Self::Noise(t) => ("noise", vec![("dark", &mut t.dark), ("light", &mut t.light)]),
+            Self::Marble(t) => ("marble", vec![("dark", &mut t.dark), ("light", &mut t.light)]),
+            Self::Wood(t) => ("wood", vec![("dark", &mut t.dark), ("light", &mut t.light)]),
         }
     }
 }
@@ -149,8 +139,8 @@ impl<'d> Numbers<'d> {
     }
 
     /// Notes in colours which textures they name.
-    pub(crate) fn resolve<'c>(&self, colors: impl IntoIterator<Item = &'c mut Color>) {
-        for color in colors {
+    pub(crate) fn resolve<'c>(&self, colors: impl IntoIterator<Item = (&'static str, &'c mut Color)>) {
+        for (_, color) in colors {
             if let Color::Texture(name) = color {
                 name.index = self.0.get(name.name.as_str()).copied().unwrap_or(u32::MAX);
             }
@@ -162,48 +152,45 @@ impl<'d> Numbers<'d> {
 pub(crate) fn compile(textures: &BTreeMap<String, TextureDesc>) -> Vec<TextureDesc> {
     let numbers = Numbers::new(textures);
     let mut compiled: Vec<_> = textures.values().cloned().collect();
-    compiled.iter_mut().for_each(|texture| numbers.resolve(texture.colors_mut()));
+    compiled.iter_mut().for_each(|texture| numbers.resolve(texture.colors().1));
     compiled
 }
 
 /// Notes names that do not exist, and textures that are made of themselves.
 pub(crate) fn check(textures: &BTreeMap<String, TextureDesc>, c: &mut Check) {
-    let mut nesting = Nesting { textures, depth: BTreeMap::new() };
+    let mut nesting = Nesting::new(textures);
     for (name, texture) in textures {
         c.within(name, |c| {
             texture.check(c);
-            let (kind, colors) = texture.colors();
-            c.within(kind, |c| colors.into_iter().for_each(|(key, color)| check_name(key, color, textures, c)));
-            let Err(way) = nesting.depth(&mut Vec::new(), name) else { return };
-            let comes_back = way.len() > 1 && way.first() == way.last();
-            if comes_back {
-                let message = format!("the texture is made of itself: {}", way.join(" > "));
-                c.problem(kind, message, Some("give one of them a colour instead".to_owned()));
-            } else if way.last().is_some_and(|last| !way[..way.len() - 1].contains(last)) {
-                let hint = format!("at most {} are allowed", Nesting::MOST);
-                c.problem(kind, "the texture is made of too many textures within each other", Some(hint));
-            }
+            check_names(texture.clone().colors(), textures, c);
+            nesting.check(name, texture.clone().colors().0, c);
         });
     }
 }
 
+/// Notes the names of textures that do not exist, in colours below the key of a kind.
+pub(crate) fn check_names(
+    (kind, colors): (&str, Vec<(&str, &mut Color)>),
+    textures: &BTreeMap<String, TextureDesc>,
+    c: &mut Check,
+) {
+    c.within(kind, |c| colors.into_iter().for_each(|(key, color)| check_name(key, color, textures, c)));
+}
+
 /// Notes a name that no texture has.
-pub(crate) fn check_name(key: &str, color: &Color, textures: &BTreeMap<String, TextureDesc>, c: &mut Check) {
+fn check_name(key: &str, color: &Color, textures: &BTreeMap<String, TextureDesc>, c: &mut Check) {
     let Color::Texture(TextureName { name, .. }) = color else { return };
     if textures.contains_key(name) {
         return;
     }
-    let names: Vec<_> = textures.keys().take(12).map(|name| format!("`{name}`")).collect();
-    let hint = match names[..] {
-        [] => "the scene has no textures; add one as [texture.NAME.KIND], or write a colour".to_owned(),
-        _ => format!("textures are {}", names.join(", ")),
-    };
-    c.problem(key, format!("there is no texture `{name}`"), Some(hint));
+    let words = ["texture", "textures", "add one as [texture.NAME.KIND], or write a colour"];
+    c.no_such(key, words, name, textures.keys());
 }
 
 /// How deep textures are made of one another.
 struct Nesting<'d> {
-    textures: &'d BTreeMap<String, TextureDesc>,
+    /// What each texture is made of.
+    parts: BTreeMap<&'d str, Vec<&'d str>>,
     /// Of those that are known not to lead too deep or back to themselves.
     depth: BTreeMap<&'d str, usize>,
 }
@@ -212,10 +199,36 @@ impl<'d> Nesting<'d> {
     /// The most textures within each other.
     const MOST: usize = 16;
 
-    /// The depth below the last texture of a way, itself counted, or the way on which it is too deep or comes back.
+    fn new(textures: &'d BTreeMap<String, TextureDesc>) -> Self {
+        let named = |color: &Color| match color {
+            Color::Texture(TextureName { name, .. }) => textures.get_key_value(name).map(|(name, _)| name.as_str()),
+            Color::Rgb(_) => None,
+        };
+        let parts =
+            |texture: &TextureDesc| texture.clone().colors().1.iter().filter_map(|(_, color)| named(color)).collect();
+        Self {
+            parts: textures.iter().map(|(name, texture)| (name.as_str(), parts(texture))).collect(),
+            depth: BTreeMap::new(),
+        }
+    }
+
+    /// Notes that a texture, of a kind, is made of itself, or of too many within each other.
+    fn check(&mut self, name: &'d str, kind: &str, c: &mut Check) {
+        let Err(way) = self.depth(&mut Vec::new(), name) else { return };
+        let Some((last, before)) = way.split_last() else { return };
+        if before.first() == Some(last) {
+            let message = format!("the texture is made of itself: {}", way.join(" > "));
+            c.problem(kind, message, Some("give one of them a colour instead".to_owned()));
+        } else if !before.contains(last) {
+            let hint = format!("at most {} are allowed", Self::MOST);
+            c.problem(kind, "the texture is made of too many textures within each other", Some(hint));
+        }
+    }
+
+    /// The depth of a texture, itself counted, or the way to it from where one has begun, if that is too long or comes back.
     fn depth(&mut self, way: &mut Vec<&'d str>, name: &'d str) -> Result<usize, Vec<&'d str>> {
         if let Some(&depth) = self.depth.get(name) {
-            return if way.len() + depth > Self::MOST { Err(way.clone()) } else { Ok(depth) };
+            return if way.len() + depth > Self::MOST { Err([&way[..], &[name]].concat()) } else { Ok(depth) };
         }
         let comes_back = way.contains(&name);
         way.push(name);
@@ -223,10 +236,8 @@ impl<'d> Nesting<'d> {
             return Err(way.clone());
         }
         let mut below = 0;
-        for (_, color) in self.textures.get(name).map(|texture| texture.colors().1).unwrap_or_default() {
-            if let Color::Texture(TextureName { name, .. }) = color {
-                below = below.max(self.depth(way, name)?);
-            }
+        for part in self.parts.get(name).cloned().unwrap_or_default() {
+            below = below.max(self.depth(way, part)?);
         }
         way.pop();
         self.depth.insert(name, below + 1);

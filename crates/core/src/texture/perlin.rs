@@ -4,7 +4,7 @@
 //! that these span are mixed by a polynomial whose first two derivatives vanish at the ends. The gradients are drawn by a
 //! hash of the lattice point, so the pattern never repeats.
 
-use glam::Vec3;
+use glam::{FloatExt, Vec3};
 
 use crate::math::{GAMMA, mix};
 
@@ -17,10 +17,9 @@ pub(super) fn noise(p: Vec3) -> f32 {
         let step = Vec3::new((i & 1) as f32, (i >> 1 & 1) as f32, (i >> 2 & 1) as f32);
         gradient(cell + step).dot(rest - step)
     };
-    let lerp = |a: f32, b: f32, t: f32| a + t * (b - a);
-    let along_x = |i: u32| lerp(corner(i), corner(i + 1), weight.x);
-    let along_y = |i: u32| lerp(along_x(i), along_x(i + 2), weight.y);
-    lerp(along_y(0), along_y(4), weight.z)
+    let along_x = |i: u32| corner(i).lerp(corner(i + 1), weight.x);
+    let along_y = |i: u32| along_x(i).lerp(along_x(i + 2), weight.y);
+    along_y(0).lerp(along_y(4), weight.z)
 }
 
 /// One of the twelve directions to the middles of a cube's edges.

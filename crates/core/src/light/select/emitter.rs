@@ -4,9 +4,9 @@
 //!
 //! with the peak intensity I (power per steradian), the mean square d² of the distances to all places in the lights' box,
 //! which also tells apart groups that the point is within, the angle θ' at which the lights send light to the point and
-//! the angle θ'ᵢ at which it arrives. Both are as small as the bounds allow: θ' = max(θ - θₒ - θᵤ, 0), where θ is the angle between the axis and the direction to the point, θₒ the spread
-//! of the normals and θᵤ the half-angle under which the point sees the sphere; θ'ᵢ = max(θᵢ - θᵤ, 0). So importance is
-//! 0 only where no light can arrive.
+//! the angle θ'ᵢ at which it arrives. Both are as small as the bounds allow: θ' = max(θ - θₒ - θᵤ, 0), where θ is the
+//! angle between the axis and the direction to the point, θₒ the spread of the normals and θᵤ the half-angle under which
+//! the point sees the sphere; θ'ᵢ = max(θᵢ - θᵤ, 0). So importance is 0 only where no light can arrive.
 //!
 //! Conty Estevez & Kulla 2018, doi:10.1145/3233305, §3.2; with the receiver's cosine of both sides, and differences of
 //! angles by the addition theorems, of Pharr, Jakob & Humphreys, Physically Based Rendering, 4th ed. 2023, §12.6.3. I
