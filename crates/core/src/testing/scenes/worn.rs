@@ -40,7 +40,7 @@ fn hollow() -> KnownScene {
 /// A floor in the sun under a sheet with holes.
 fn shadow() -> KnownScene {
     let mut desc = lit_floor(DARK);
-    let sun = DirectionalLight { direction: [0.0, -1.0, 0.0], irradiance: Rgb::grey(3.0), angle: 0.0 };
+    let sun = DirectionalLight { direction: [0.0, 1.0, 0.0], irradiance: Rgb::grey(3.0), angle: 0.0 };
     desc.light.directional.push(sun);
     let material = veil(&mut desc, 0.25);
     add_quad(&mut desc, floor(2.0), "veil", material);
