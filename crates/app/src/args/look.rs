@@ -9,7 +9,7 @@ use eyebeam_io::image::{Bits, Encoding};
 #[command(next_help_heading = "Look of .png and .jpg (.exr and .hdr stay linear light)")]
 pub(crate) struct LookArgs {
     /// Curve from light to the screen
-    #[arg(long, default_value = "standard", value_parser = view())]
+    #[arg(long, default_value = View::FOR_PICTURES.name(), value_parser = view())]
     pub(crate) view: View,
     /// Make it brighter by 2 to the power of EV; auto makes it as bright as middle grey
     #[arg(long, value_name = "EV", default_value = "0", allow_negative_numbers = true)]
@@ -61,6 +61,7 @@ fn about(view: View) -> &'static str {
         View::Filmic => "A soft shoulder on each channel",
         View::Aces => "Contrast and warm highlights as in cinemas",
         View::Agx => "Bright colours fade to white, as in photographs",
+        View::AgxBase => "The same without added contrast",
         View::Raw => "No curve: linear light, clipped at 1",
     }
 }

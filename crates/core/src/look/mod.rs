@@ -27,6 +27,7 @@
 
 mod dither;
 mod exposure;
+mod tone;
 mod view;
 mod white_balance;
 
@@ -36,7 +37,6 @@ pub use view::View;
 use glam::{Mat3, Vec3};
 use serde::{Deserialize, Serialize};
 
-use crate::color::Rgb;
 use crate::film::Image;
 
 /// The linear light that contrast does not change: a grey that reflects 18 % of it.
@@ -66,7 +66,7 @@ pub struct Look {
 impl Default for Look {
     fn default() -> Self {
         Self {
-            view: View::Standard,
+            view: View::default(),
             exposure: Exposure::Ev(0.0),
             white_balance: Self::WHITE,
             contrast: 1.0,
@@ -130,7 +130,8 @@ impl Grade {
     pub fn signal(&self, rgb: [f32; 3]) -> [f32; 3] {
         // What is no number is not above 0.
         let light = rgb.map(|c| if c > 0.0 { c.min(BRIGHTEST) } else { 0.0 });
-        self.view.signal(self.saturate(self.balance(light).map(|c| self.contrast(c))))
+        let light = self.balance(light).map(|c| tone::contrast(c, self.contrast));
+        self.view.signal(tone::saturate(light, self.saturation))
     }
 
     /// The pixel in column `x` of row `y` in 8 bits, with the look's dithering.
@@ -150,27 +151,12 @@ impl Grade {
         let balanced = self.balance.map_or(rgb, |matrix| (matrix * Vec3::from(rgb)).to_array());
         balanced.map(|c| c.max(0.0) * self.gain)
     }
-
-    fn contrast(&self, c: f32) -> f32 {
-        if self.contrast == 1.0 {
-            return c;
-        }
-        (MIDDLE_GREY * libm::powf(c / MIDDLE_GREY, self.contrast)).min(BRIGHTEST)
-    }
-
-    fn saturate(&self, rgb: [f32; 3]) -> [f32; 3] {
-        if self.saturation == 1.0 {
-            return rgb;
-        }
-        let y = Rgb(rgb).luminance();
-        rgb.map(|c| (y + self.saturation * (c - y)).max(0.0))
-    }
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::color::srgb_encode;
+    use crate::color::{Rgb, srgb_encode};
 
     fn grade(look: Look) -> Grade {
         look.grade(&Image::new(1, 1))
