@@ -10,7 +10,7 @@ use crate::math::{Frame, renormalize};
 use crate::sampler::Sampler;
 use crate::scene::Met;
 use crate::shape::SurfacePoint;
-use crate::texture::{TexturePoint, Textures, TexturesAt};
+use crate::texture::{Textures, TexturesAt};
 
 /// A point of a surface, seen along a ray.
 ///
@@ -137,7 +137,6 @@ impl<'s> SurfaceInteraction<'s> {
 impl Textures for SurfaceInteraction<'_> {
     #[inline(never)]
     fn color(&self, texture: u32) -> Spectrum {
-        let at = TexturePoint { uv: self.uv(), p: self.point.p };
-        TexturesAt { textures: self.met.textures(), at }.color(texture)
+        TexturesAt { textures: self.met.textures(), at: self.met.texture_point(&self.point) }.color(texture)
     }
 }

@@ -5,7 +5,7 @@ use std::collections::BTreeMap;
 pub use eyebeam_bvh::{Bvh, Ray, Slot};
 
 use eyebeam_bvh::{BuildError, Hit, Primitive, Quality};
-use glam::Vec2;
+use glam::{Vec2, Vec3};
 
 use crate::camera::{Camera, CameraDesc};
 use crate::desc::SceneDesc;
@@ -13,8 +13,8 @@ use crate::film::Ids;
 use crate::interaction::SurfaceInteraction;
 use crate::light::{AreaLight, EnvironmentSampling, Light, Lights};
 use crate::material::MaterialDesc;
-use crate::shape::{MeshUvs, Plane, Smooth, SurfacePoint, sphere_uv};
-use crate::texture::{self, TextureDesc};
+use crate::shape::{Plane, Smooth, SurfacePoint, VertexData, sphere_uv};
+use crate::texture::{self, TextureDesc, TexturePoint};
 use crate::validate::Problem;
 
 /// How rays find what they hit.
@@ -61,8 +61,10 @@ struct Object {
     smooth: Option<Smooth>,
     /// If it is a single quad.
     plane: Option<Plane>,
-    /// Coordinates for textures, if the mesh has them.
-    uvs: Option<MeshUvs>,
+    /// What vertices say to textures, if they do.
+    vertices: Option<VertexData>,
+    /// Where the shape's own coordinates begin.
+    origin: Vec3,
 }
 
 impl Scene {
@@ -105,7 +107,8 @@ impl Scene {
                 first_light: None,
                 smooth: shape.smooth(),
                 plane: shape.plane(),
-                uvs: shape.uvs(),
+                vertices: shape.vertex_data(),
+                origin: shape.origin(),
             });
         }
         let bvh = match options.acceleration {
@@ -198,7 +201,18 @@ impl<'s> Met<'s> {
         if point.is_round {
             return sphere_uv(point.n);
         }
-        self.object.uvs.as_ref().map_or(self.uv, |uvs| uvs.at(self.primitive, self.uv))
+        self.object.vertices.as_ref().and_then(|v| v.uv(self.primitive, self.uv)).unwrap_or(self.uv)
+    }
+
+    /// Where textures are looked up.
+    pub(crate) fn texture_point(&self, point: &SurfacePoint) -> TexturePoint {
+        TexturePoint {
+            uv: self.uv(point),
+            p: point.p,
+            p_object: point.p - self.object.origin,
+            n: point.ns,
+            vertex_color: self.object.vertices.as_ref().and_then(|v| v.color(self.primitive, self.uv)),
+        }
     }
 
     pub(crate) fn textures(&self) -> &'s [TextureDesc] {

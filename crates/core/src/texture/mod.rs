@@ -19,6 +19,7 @@ mod mapping;
 mod marble;
 mod noise;
 mod perlin;
+mod pixels;
 mod wood;
 
 use std::collections::BTreeMap;
@@ -27,7 +28,7 @@ use glam::{Vec2, Vec3};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
-use crate::color::Spectrum;
+use crate::color::{Rgb, Spectrum};
 use crate::validate::Checker as Check;
 
 pub use checker::Checker;
@@ -36,6 +37,7 @@ pub use image::ImageTexture;
 pub use mapping::{Mapping, Space};
 pub use marble::Marble;
 pub use noise::Noise;
+pub use pixels::{Encoding, Filter, Pixels, Samples};
 pub use wood::Wood;
 
 /// A texture as a scene states it: `[texture.NAME.KIND]`.
@@ -55,12 +57,18 @@ pub enum TextureDesc {
 }
 
 /// Where a texture is looked up.
-#[derive(Clone, Copy, Debug)]
+#[derive(Clone, Copy, Debug, Default)]
 pub struct TexturePoint {
     /// Coordinates on the shape.
     pub uv: Vec2,
     /// Place in the world, metres.
     pub p: Vec3,
+    /// Place from the shape's own origin, metres.
+    pub p_object: Vec3,
+    /// Unit shading normal.
+    pub n: Vec3,
+    /// What the vertices of a mesh say.
+    pub vertex_color: Option<Rgb>,
 }
 
 /// What materials ask for the colours that they do not hold themselves.
@@ -274,7 +282,7 @@ mod tests {
         ]);
         let textures = compile(&textures);
         let color = |p: Vec3| {
-            let at = TexturePoint { uv: Vec2::ZERO, p };
+            let at = TexturePoint { p, ..TexturePoint::default() };
             TexturesAt { textures: &textures, at }.color(0).to_rgb()[0]
         };
         assert_eq!([color(Vec3::splat(0.5)), color(Vec3::new(1.5, 0.5, 0.5))], [1.0, 0.0]);
