@@ -81,20 +81,38 @@ pub(crate) struct VertexData {
 impl VertexData {
     /// The coordinates for textures at the point of a triangle where its second and third vertex have these weights.
     pub(crate) fn uv(&self, triangle: u32, weights: Vec2) -> Option<Vec2> {
-        self.between(&self.uvs, triangle, weights).map(Vec2::from)
+        self.corners(&self.uvs, triangle).map(|corners| between(corners, weights).into())
     }
 
     /// The colour there.
     pub(crate) fn color(&self, triangle: u32, weights: Vec2) -> Option<Rgb> {
-        self.between(&self.colors, triangle, weights).map(Rgb)
+        self.corners(&self.colors, triangle).map(|corners| Rgb(between(corners, weights)))
     }
 
-    /// None if vertices have no such numbers.
-    fn between<const N: usize>(&self, numbers: &[[f32; N]], triangle: u32, weights: Vec2) -> Option<[f32; N]> {
-        let [a, b, c] = self.triangles.get(triangle as usize)?.map(|i| numbers.get(i as usize));
-        let (a, b, c) = (a?, b?, c?);
-        Some(array::from_fn(|i| a[i] * (1.0 - weights.x - weights.y) + b[i] * weights.x + c[i] * weights.y))
+    /// How a point of a triangle with these first two edges moves with the coordinates; nothing is said where they are the same
+    /// all over.
+    pub(crate) fn tangents(&self, triangle: u32, edges: [Vec3; 2]) -> Option<[Vec3; 2]> {
+        let [a, b, c] = self.corners(&self.uvs, triangle)?.map(Vec2::from);
+        let [first, second] = [b - a, c - a];
+        let area = first.perp_dot(second);
+        if area == 0.0 {
+            return Some([Vec3::ZERO; 2]);
+        }
+        let [e1, e2] = edges;
+        Some([(e1 * second.y - e2 * first.y) / area, (e2 * first.x - e1 * second.x) / area])
     }
+
+    /// At the corners of a triangle; none if vertices have no such numbers.
+    fn corners<T: Copy>(&self, numbers: &[T], triangle: u32) -> Option<[T; 3]> {
+        let &[a, b, c] = self.triangles.get(triangle as usize)?;
+        let number = |i: u32| numbers.get(i as usize).copied();
+        Some([number(a)?, number(b)?, number(c)?])
+    }
+}
+
+/// At the point of a triangle where its second and third vertex have these weights.
+fn between<const N: usize>([a, b, c]: [[f32; N]; 3], weights: Vec2) -> [f32; N] {
+    array::from_fn(|i| a[i] * (1.0 - weights.x - weights.y) + b[i] * weights.x + c[i] * weights.y)
 }
 
 /// A mesh, wherever it comes from.

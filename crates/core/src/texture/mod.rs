@@ -127,6 +127,14 @@ pub struct TexturesAt<'t> {
     pub at: TexturePoint,
 }
 
+impl TexturesAt<'_> {
+    /// The same at a point that is a little off, by so many metres and coordinates.
+    pub(crate) fn moved(&self, by: Vec3, uv: Vec2) -> Self {
+        let at = TexturePoint { uv: self.at.uv + uv, p: self.at.p + by, p_object: self.at.p_object + by, ..self.at };
+        Self { at, ..*self }
+    }
+}
+
 impl Textures for TexturesAt<'_> {
     fn color(&self, texture: u32) -> Spectrum {
         // The check has found that names exist and that none leads back to itself.
