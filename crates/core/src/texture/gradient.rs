@@ -25,6 +25,7 @@ use crate::validate::Checker;
 
 /// One colour that becomes another.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[schemars(rename = "GradientTexture")]
 #[serde(deny_unknown_fields, default)]
 pub struct Gradient {
     /// At 0.

@@ -18,6 +18,7 @@ use crate::validate::Checker;
 
 /// Two colours in shares.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[schemars(rename = "MixTexture")]
 #[serde(deny_unknown_fields)]
 pub struct Mix {
     /// Where the share is 0.
