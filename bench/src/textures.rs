@@ -84,10 +84,7 @@ fn kinds() -> Result<Vec<(&'static str, Option<TextureDesc>)>, Box<dyn Error>> {
         ("image, half colour", image(halves(), 3)?),
         ("image, float colour", image(floats(), 3)?),
         ("checker", Some(TextureDesc::Checker(Checker::default()))),
-        (
-            "gradient",
-            Some(TextureDesc::Gradient(Gradient { from: grey(0.2), to: grey(0.8), ..Gradient::default() })),
-        ),
+        ("gradient", Some(TextureDesc::Gradient(Gradient { from: grey(0.2), to: grey(0.8), ..Gradient::default() }))),
         ("noise, 1 octave", Some(noise(1))),
         ("noise, 4 octaves", Some(noise(4))),
         ("marble", Some(TextureDesc::Marble(Marble::default()))),

@@ -89,6 +89,12 @@ impl ImageTexture {
         }
     }
 
+    /// Whether its numbers are taken for colours of a screen.
+    pub(crate) fn is_srgb(&self) -> bool {
+        let has_signals = self.pixels.as_ref().is_some_and(|pixels| !pixels.is_light());
+        has_signals && self.encoding != Encoding::Linear && !self.alpha
+    }
+
     pub(super) fn color(&self, at: &TexturePoint) -> Spectrum {
         if self.triplanar {
             return self.three(at);
