@@ -129,7 +129,7 @@ fn open(bytes: &[u8]) -> Result<Opened<'_>, FileError> {
         return Err(FileError::new("the blocks of the OpenEXR picture are too large").hint("store it in scan lines"));
     }
     let (color, alpha) = (color.is_some(), channel(header, "A"));
-    let is_read = |name: &Text| ["R", "G", "B", "A"].iter().any(|read| name.eq(*read)) || !color && name.eq("Y");
+    let is_read = |name: &Text| ["R", "G", "B", "A"].iter().any(|read| name.eq(read)) || !color && name.eq("Y");
     let mut read = header.channels.list.iter().filter(|c| is_read(&c.name));
     let half = read.all(|c| c.sample_type == SampleType::F16);
     let (provenance, warnings) = (provenance(header), warnings(header, !color));

@@ -11,6 +11,9 @@ use crate::error::FileError;
 use crate::image::read::check_size;
 use crate::image::read::pixels::{compact, pixels};
 
+type Png<'b> = Reader<Cursor<&'b [u8]>>;
+type Jpeg<'b> = JpegDecoder<Cursor<&'b [u8]>>;
+
 /// What a PNG may keep beside its pixels.
 const PNG_MEMORY: usize = 256 << 20;
 
@@ -38,7 +41,7 @@ pub(super) fn png_size(bytes: &[u8]) -> Result<u64, FileError> {
     open_png(bytes, 0).map(|(_, memory)| memory)
 }
 
-fn open_png(bytes: &[u8], more: u64) -> Result<(Reader<Cursor<&[u8]>>, u64), FileError> {
+fn open_png(bytes: &[u8], more: u64) -> Result<(Png<'_>, u64), FileError> {
     let mut decoder = Decoder::new_with_limits(Cursor::new(bytes), Limits { bytes: PNG_MEMORY });
     decoder.set_ignore_text_chunk(true);
     decoder.set_ignore_iccp_chunk(true);
@@ -53,7 +56,7 @@ fn open_png(bytes: &[u8], more: u64) -> Result<(Reader<Cursor<&[u8]>>, u64), Fil
 }
 
 /// Bytes of a pixel.
-fn stride(reader: &Reader<Cursor<&[u8]>>) -> usize {
+fn stride(reader: &Png<'_>) -> usize {
     let (color, depth) = reader.output_color_type();
     color.samples() * if depth == BitDepth::Sixteen { 2 } else { 1 }
 }
@@ -82,7 +85,7 @@ pub(super) fn jpeg_size(bytes: &[u8]) -> Result<u64, FileError> {
     open_jpeg(bytes, 0).map(|(_, memory)| memory)
 }
 
-fn open_jpeg(bytes: &[u8], more: u64) -> Result<(JpegDecoder<Cursor<&[u8]>>, u64), FileError> {
+fn open_jpeg(bytes: &[u8], more: u64) -> Result<(Jpeg<'_>, u64), FileError> {
     let decoder = JpegDecoder::new(Cursor::new(bytes)).map_err(wrong_jpeg)?;
     let (width, height) = decoder.dimensions();
     check_size(width.into(), height.into(), JPEG_BYTES_PER_PIXEL + more)?;
