@@ -60,8 +60,11 @@ fn costs(rounds: usize) -> Result<(), Box<dyn Error>> {
     Ok(())
 }
 
+/// A texture, or a plain colour, by its name.
+type Kind = (&'static str, Option<TextureDesc>);
+
 /// A texture of each kind; the first one is a plain colour.
-fn kinds() -> Result<Vec<(&'static str, Option<TextureDesc>)>, Box<dyn Error>> {
+fn kinds() -> Result<Vec<Kind>, Box<dyn Error>> {
     let noise = |octaves| TextureDesc::Noise(Noise { octaves, ..Noise::default() });
     let grey = |value| Color::Rgb(Rgb::grey(value));
     let image = |samples: Samples, channels| image(samples, channels).map(|t| Some(TextureDesc::Image(t)));
