@@ -33,8 +33,7 @@ fn is_near(a: [f32; 3], b: [f32; 3]) -> bool {
 fn colours_of_vertices_are_interpolated() {
     let texture = VertexColor { otherwise: Rgb([0.1, 0.2, 0.3]) };
     let scene = scene(TextureDesc::VertexColor(texture), |desc| {
-        let vertices =
-            vec![[0.0; 3], [1.0, 0.0, 0.0], [0.0, 0.0, 1.0], [5.0, 0.0, 0.0], [6.0, 0.0, 0.0], [5.0, 0.0, 1.0]];
+        let vertices = [[0.0; 3], [1.0, 0.0, 0.0], [0.0, 0.0, 1.0], [5.0, 0.0, 0.0], [6.0, 0.0, 0.0], [5.0, 0.0, 1.0]];
         let colors = vec![[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]];
         let all = MeshDesc { triangles: vec![[0, 1, 2]], ..MeshDesc::default() };
         desc.shape.mesh.push(MeshDesc { vertices: vertices[..3].to_vec(), colors, ..all.clone() });
