@@ -16,8 +16,12 @@ mod metal;
 mod metals;
 mod microfacet;
 mod oren_nayar;
+mod plastic;
+mod principled;
+mod reflected;
 mod sheen;
 mod thin_dielectric;
+mod thin_film;
 
 use glam::{Vec2, Vec3};
 use schemars::JsonSchema;
@@ -37,8 +41,11 @@ pub use metal::{Metal, MetalBsdf};
 pub use metals::NamedMetal;
 pub use microfacet::{Facet, Ggx};
 pub use oren_nayar::{OrenNayar, OrenNayarBsdf};
+pub use plastic::{Plastic, PlasticBsdf};
+pub use principled::{Principled, PrincipledBsdf};
 pub use sheen::{Sheen, SheenBsdf};
 pub use thin_dielectric::{ThinDielectric, ThinDielectricBsdf};
+pub use thin_film::ThinFilm;
 
 /// A material as a scene states it: `[material.NAME.KIND]`.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
@@ -50,6 +57,10 @@ pub enum MaterialDesc {
     OrenNayar(OrenNayar),
     /// A matte leaf, paper.
     DiffuseTransmission(DiffuseTransmission),
+    /// Matte under a clear coat.
+    Plastic(Plastic),
+    /// Layers: fuzz, a coat, metal or glass or something matte.
+    Principled(Principled),
     /// Velvet, cloth.
     Sheen(Sheen),
     /// Mirror to rough metal.
@@ -77,6 +88,8 @@ impl MaterialDesc {
             Self::Lambertian(m) => c.within("lambertian", |c| m.check(c)),
             Self::OrenNayar(m) => c.within("oren-nayar", |c| m.check(c)),
             Self::DiffuseTransmission(m) => c.within("diffuse-transmission", |c| m.check(c)),
+            Self::Plastic(m) => c.within("plastic", |c| m.check(c)),
+            Self::Principled(m) => c.within("principled", |c| m.check(c)),
             Self::Sheen(m) => c.within("sheen", |c| m.check(c)),
             Self::Metal(m) => c.within("metal", |c| m.check(c)),
             Self::Conductor(m) => c.within("conductor", |c| m.check(c)),
@@ -93,6 +106,8 @@ impl MaterialDesc {
             Self::Lambertian(m) => Bsdf::Lambertian(m.bsdf(textures)),
             Self::OrenNayar(m) => Bsdf::OrenNayar(m.bsdf(textures)),
             Self::DiffuseTransmission(m) => Bsdf::DiffuseTransmission(m.bsdf()),
+            Self::Plastic(m) => Bsdf::Plastic(m.bsdf(textures)),
+            Self::Principled(m) => Bsdf::Principled(m.bsdf(textures)),
             Self::Sheen(m) => Bsdf::Sheen(m.bsdf()),
             Self::Metal(m) => Bsdf::Metal(m.bsdf(textures)),
             Self::Conductor(m) => Bsdf::Conductor(m.bsdf()),
@@ -108,6 +123,8 @@ impl MaterialDesc {
             Self::Lambertian(m) => ("lambertian", vec![("albedo", &mut m.albedo)]),
             Self::OrenNayar(m) => ("oren-nayar", vec![("albedo", &mut m.albedo)]),
             Self::DiffuseTransmission(_) => ("diffuse-transmission", vec![]),
+            Self::Plastic(m) => ("plastic", vec![("albedo", &mut m.albedo)]),
+            Self::Principled(m) => ("principled", m.colors()),
             Self::Sheen(_) => ("sheen", vec![]),
             Self::Metal(m) => ("metal", vec![("albedo", &mut m.albedo)]),
             Self::Conductor(_) => ("conductor", vec![]),
@@ -136,6 +153,10 @@ pub enum Bsdf {
     OrenNayar(OrenNayarBsdf),
     /// See [`DiffuseTransmission`].
     DiffuseTransmission(DiffuseTransmissionBsdf),
+    /// See [`Plastic`].
+    Plastic(PlasticBsdf),
+    /// See [`Principled`].
+    Principled(PrincipledBsdf),
     /// See [`Sheen`].
     Sheen(SheenBsdf),
     /// See [`Metal`].
@@ -180,6 +201,8 @@ impl Bsdf {
             Self::Lambertian(b) => b.sample(wo, u),
             Self::OrenNayar(b) => b.sample(wo, uc, u),
             Self::DiffuseTransmission(b) => b.sample(wo, uc, u),
+            Self::Plastic(b) => b.sample(wo, uc, u),
+            Self::Principled(b) => b.sample(wo, uc, u),
             Self::Sheen(b) => b.sample(wo, uc, u),
             Self::Metal(b) => b.sample(wo, uc, u),
             Self::Conductor(b) => b.sample(wo, uc, u),
@@ -195,6 +218,8 @@ impl Bsdf {
             Self::Lambertian(b) => b.eval_pdf(wo, wi),
             Self::OrenNayar(b) => b.eval_pdf(wo, wi),
             Self::DiffuseTransmission(b) => b.eval_pdf(wo, wi),
+            Self::Plastic(b) => b.eval_pdf(wo, wi),
+            Self::Principled(b) => b.eval_pdf(wo, wi),
             Self::Sheen(b) => b.eval_pdf(wo, wi),
             Self::Metal(b) => b.eval_pdf(wo, wi),
             Self::Conductor(b) => b.eval_pdf(wo, wi),
@@ -222,6 +247,8 @@ impl Bsdf {
             Self::Lambertian(b) => b.albedo,
             Self::OrenNayar(b) => b.albedo(),
             Self::DiffuseTransmission(b) => b.albedo(),
+            Self::Plastic(b) => b.albedo(),
+            Self::Principled(b) => b.albedo(),
             Self::Sheen(b) => b.albedo(),
             Self::Metal(b) => b.albedo(),
             Self::Conductor(b) => b.albedo(),
@@ -233,7 +260,8 @@ impl Bsdf {
     #[inline]
     pub fn is_delta(&self) -> bool {
         match self {
-            Self::Lambertian(_) | Self::OrenNayar(_) | Self::DiffuseTransmission(_) | Self::Sheen(_) => false,
+            Self::Lambertian(_) | Self::OrenNayar(_) | Self::DiffuseTransmission(_) | Self::Plastic(_) | Self::Sheen(_) => false,
+            Self::Principled(b) => b.is_delta(),
             Self::Metal(b) => b.is_delta(),
             Self::Conductor(b) => b.is_delta(),
             Self::Dielectric(b) => b.is_delta(),
