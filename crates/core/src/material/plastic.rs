@@ -34,7 +34,7 @@ use crate::material::microfacet::{reflect_at, upright};
 use crate::material::reflected::Boundary;
 use crate::math::reflect;
 use crate::sampling::cosine_hemisphere;
-use crate::texture::{Color, Textures};
+use crate::texture::{Color, Scalar, Textures};
 use crate::validate::Checker;
 
 /// Matte under a clear coat.
@@ -48,12 +48,12 @@ pub struct Plastic {
     pub eta: f32,
     /// Of the coat: 0 is polished, 1 completely rough; alpha is its square. Below 0.022 it is a perfect mirror.
     #[schemars(range(min = 0.0, max = 1.0))]
-    pub roughness: f32,
+    pub roughness: Scalar,
 }
 
 impl Default for Plastic {
     fn default() -> Self {
-        Self { albedo: Rgb::grey(0.5).into(), eta: 1.5, roughness: 0.0 }
+        Self { albedo: Rgb::grey(0.5).into(), eta: 1.5, roughness: 0.0.into() }
     }
 }
 
@@ -61,13 +61,14 @@ impl Plastic {
     pub(crate) fn check(&self, c: &mut Checker) {
         self.albedo.check_share("albedo", c);
         c.in_range("eta", self.eta, 1.0, Boundary::MAX_ETA);
-        c.in_range("roughness", self.roughness, 0.0, 1.0);
+        self.roughness.check_range("roughness", 0.0, 1.0, c);
     }
 
     #[inline]
     pub(crate) fn bsdf(&self, textures: &impl Textures) -> PlasticBsdf {
         let albedo = Rgb(self.albedo.share_at(textures).to_rgb());
-        PlasticBsdf { albedo, coat: Boundary::new(self.roughness * self.roughness, self.eta) }
+        let roughness = self.roughness.at(textures, 0.0, 1.0);
+        PlasticBsdf { albedo, coat: Boundary::new(roughness * roughness, self.eta) }
     }
 }
 
@@ -155,7 +156,7 @@ mod tests {
     use crate::texture::NoTextures;
 
     fn plastic(albedo: [f32; 3], eta: f32, roughness: f32) -> PlasticBsdf {
-        Plastic { albedo: Rgb(albedo).into(), eta, roughness }.bsdf(&NoTextures)
+        Plastic { albedo: Rgb(albedo).into(), eta, roughness: roughness.into() }.bsdf(&NoTextures)
     }
 
     /// The share of light from a direction of this cosine that is scattered: visible normals for the coat, and midpoints in
@@ -218,7 +219,8 @@ mod tests {
     /// straight above.
     #[test]
     fn colours_are_deeper_below_a_coat() {
-        let [[r, g, _], [bare_r, bare_g, _]] = [1.5, 1.0].map(|eta| plastic([0.8, 0.4, 0.1], eta, 0.0).albedo().to_rgb());
+        let [[r, g, _], [bare_r, bare_g, _]] =
+            [1.5, 1.0].map(|eta| plastic([0.8, 0.4, 0.1], eta, 0.0).albedo().to_rgb());
         assert!((bare_r - 0.8).abs() < 1e-6 && (bare_g - 0.4).abs() < 1e-6);
         assert!((g - 0.04) / (r - 0.04) < 0.9 * bare_g / bare_r, "{r} {g}");
         for roughness in [0.0, 0.5, 1.0] {
@@ -248,5 +250,24 @@ mod tests {
                 }
             }
         }
+    }
+
+    /// The table of docs/theory/microfacets.md: the share of the light, in percent, that the coat of plastic reflects, and that
+    /// plastic with a white base scatters.
+    #[test]
+    fn documented_shares() {
+        let mut table =
+            String::from("| roughness of the coat | 0° | 30° | 60° | 80° | 89° |\n|---|---|---|---|---|---|\n");
+        for roughness in [0.0, 0.2, 0.4, 0.6, 0.8, 1.0] {
+            let shares = [0.0_f32, 30.0, 60.0, 80.0, 89.0].map(|degrees| {
+                let [coat, all] = [0.0, 1.0]
+                    .map(|white| 100.0 * share(plastic([white; 3], 1.5, roughness), degrees.to_radians().cos())[0]);
+                format!("{coat:.0} → {all:.0}")
+            });
+            table += &format!("| {roughness:.1} | {} |\n", shares.join(" | "));
+        }
+        let page = concat!(env!("CARGO_MANIFEST_DIR"), "/../../docs/theory/microfacets.md");
+        let text = std::fs::read_to_string(page).unwrap();
+        assert!(text.contains(&table), "the table of {page} should be\n\n{table}");
     }
 }

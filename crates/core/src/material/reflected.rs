@@ -36,6 +36,12 @@ impl Boundary {
         Self { alpha, eta }
     }
 
+    /// The index inside over outside.
+    #[inline]
+    pub(super) fn eta(self) -> f32 {
+        self.eta
+    }
+
     /// The facets.
     #[inline]
     pub(super) fn ggx(self) -> Ggx {
@@ -130,7 +136,8 @@ impl Table {
                 }
             }
         }
-        table.means = from_fn(|layer| from_fn(|row| table.mean(Boundary::new(Self::alpha(step(row, Self::ROWS)), etas[layer]))));
+        table.means =
+            from_fn(|layer| from_fn(|row| table.mean(Boundary::new(Self::alpha(step(row, Self::ROWS)), etas[layer]))));
         table
     }
 

@@ -63,10 +63,13 @@ impl ThinFilm {
         c.in_range("eta", self.eta, 1.0, Self::MAX_ETA);
     }
 
-    /// Itself, if there is one.
+    /// There is no film.
+    pub(super) const NONE: Self = Self { thickness: 0.0, eta: 1.0 };
+
+    /// Whether there is one.
     #[inline]
-    pub(super) fn if_any(self) -> Option<Self> {
-        (self.thickness > 0.0).then_some(self)
+    pub(super) fn is_there(self) -> bool {
+        self.thickness > 0.0
     }
 
     /// What a film on something clear reflects of unpolarised light, 0..1. `cos_i` and `cos_t` are the cosines outside of
@@ -123,7 +126,8 @@ impl ThinFilm {
         let sin_sq = (1.0 - cos) * (1.0 + cos);
         // eta cos θ₂, by the film's index over that outside.
         let in_film = (film * film - sin_sq).max(0.0).sqrt();
-        let above = [ratio(cos - in_film, cos + in_film), ratio(film * film * cos - in_film, film * film * cos + in_film)];
+        let above =
+            [ratio(cos - in_film, cos + in_film), ratio(film * film * cos - in_film, film * film * cos + in_film)];
         let way = 2.0 * self.thickness * self.eta * (in_film / film);
         Spectrum::from_rgb(from_fn(|channel| {
             let amplitudes = below(channel);
@@ -303,7 +307,11 @@ mod tests {
                         assert!(off < 4e-3, "{film:?} on {what} at cosine {cos}: {found}, not {exact}");
                     }
                 };
-                close(film.on_metal(cos, gold.0, gold.1), exact(cos, film, |i| (gold.0.0[i].into(), gold.1.0[i].into())), "gold");
+                close(
+                    film.on_metal(cos, gold.0, gold.1),
+                    exact(cos, film, |i| (gold.0.0[i].into(), gold.1.0[i].into())),
+                    "gold",
+                );
                 for eta in [1.0, 1.5, 2.4] {
                     let cos_t = Fresnel::dielectric(cos, eta).cos_t;
                     let seen = exact(cos, film, |_| (eta.into(), 0.0));
@@ -329,7 +337,7 @@ mod tests {
                 assert!((found - bare).abs() < 5e-3, "{found}, not {bare}, at {cos}");
             }
         }
-        assert!(ThinFilm { thickness: 0.0, eta: 1.4 }.if_any().is_none());
+        assert!(film.is_there() && !ThinFilm::NONE.is_there());
     }
 
     /// What everybody sees as a soap film drains: from the second order down green, blue, purple, yellow, white, and black just
@@ -363,7 +371,10 @@ mod tests {
                         film.on_mirror(cos, Spectrum::ONE),
                         film.on_metal(cos, Rgb::grey(eta), Rgb::grey(0.0)),
                     ];
-                    assert!(rgb.iter().flat_map(|s| s.to_rgb()).all(|r| (0.0..=1.0).contains(&r)), "{cos} {eta} {rgb:?}");
+                    assert!(
+                        rgb.iter().flat_map(|s| s.to_rgb()).all(|r| (0.0..=1.0).contains(&r)),
+                        "{cos} {eta} {rgb:?}"
+                    );
                 }
             }
         }

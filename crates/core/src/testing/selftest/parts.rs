@@ -12,7 +12,8 @@ use crate::film::{BlackmanHarris, BoxFilter, FilterDesc, Gaussian, Image, Mitche
 use crate::light::select::{LightBounds, LightSelection};
 use crate::light::{DirectionalLight, EnvironmentDesc, ImageEnvironment, NoLight};
 use crate::material::{
-    Conductor, Dielectric, DiffuseTransmission, Emissive, Lambertian, MaterialDesc, Metal, OrenNayar, Sheen,
+    Conductor, Dielectric, DiffuseTransmission, Emissive, Lambertian, MaterialDesc, Metal, OrenNayar, Plastic,
+    Principled, Sheen,
 };
 use crate::sampler::SamplerKind;
 use crate::shape::{MeshDesc, QuadDesc, SphereDesc};
@@ -86,23 +87,42 @@ fn lobes() -> impl Iterator<Item = (&'static str, MaterialDesc, Reciprocal)> {
     let gold = Conductor {
         eta: Some(Rgb([0.143, 0.375, 1.44])),
         k: Some(Rgb([3.98, 2.39, 1.60])),
-        roughness: 0.3,
+        roughness: 0.3.into(),
         ..Conductor::default()
     };
-    let leaf = DiffuseTransmission { reflectance: Rgb([0.1, 0.3, 0.05]), transmittance: Rgb([0.2, 0.5, 0.0]) };
-    let velvet = Sheen { color: Rgb([0.9, 0.4, 0.2]), roughness: 0.4, albedo: Rgb([0.2, 0.1, 0.0]) };
+    let leaf =
+        DiffuseTransmission { reflectance: Rgb([0.1, 0.3, 0.05]).into(), transmittance: Rgb([0.2, 0.5, 0.0]).into() };
+    let velvet =
+        Sheen { color: Rgb([0.9, 0.4, 0.2]).into(), roughness: 0.4.into(), albedo: Rgb([0.2, 0.1, 0.0]).into() };
+    let layers = Principled {
+        base_metalness: 0.3.into(),
+        transmission_weight: 0.4.into(),
+        coat_weight: 0.5.into(),
+        fuzz_weight: 0.5.into(),
+        ..Principled::default()
+    };
     [
         ("matte", MaterialDesc::Lambertian(Lambertian { albedo: Rgb([0.9, 0.5, 0.1]).into() }), Reciprocal::Yes),
         (
             "rough matte",
-            MaterialDesc::OrenNayar(OrenNayar { albedo: Rgb::grey(1.0).into(), roughness: 0.8 }),
+            MaterialDesc::OrenNayar(OrenNayar { albedo: Rgb::grey(1.0).into(), roughness: 0.8.into() }),
             Reciprocal::Yes,
         ),
         ("a leaf", MaterialDesc::DiffuseTransmission(leaf), Reciprocal::Yes),
         ("velvet", MaterialDesc::Sheen(velvet), Reciprocal::Yes),
-        ("fuzzy metal", MaterialDesc::Metal(Metal { albedo: Rgb::grey(0.9).into(), roughness: 0.4 }), Reciprocal::No),
+        (
+            "fuzzy metal",
+            MaterialDesc::Metal(Metal { albedo: Rgb::grey(0.9).into(), roughness: 0.4.into() }),
+            Reciprocal::No,
+        ),
         ("rough metal", MaterialDesc::Conductor(gold), Reciprocal::Yes),
-        ("rough glass", MaterialDesc::Dielectric(Dielectric { eta: 1.5, roughness: 0.5 }), Reciprocal::Yes),
+        ("plastic", MaterialDesc::Plastic(Plastic { roughness: 0.4.into(), ..Plastic::default() }), Reciprocal::Yes),
+        ("layers", MaterialDesc::Principled(layers), Reciprocal::No),
+        (
+            "rough glass",
+            MaterialDesc::Dielectric(Dielectric { eta: 1.5, roughness: 0.5.into(), ..Dielectric::default() }),
+            Reciprocal::Yes,
+        ),
     ]
     .into_iter()
 }
