@@ -45,6 +45,7 @@ pub use bump::Bump;
 pub use conductor::{Conductor, ConductorBsdf};
 pub use dielectric::{Dielectric, DielectricBsdf};
 pub use diffuse_transmission::{DiffuseTransmission, DiffuseTransmissionBsdf};
+pub(crate) use emissive::Emission;
 pub use emissive::Emissive;
 pub use fresnel::{Fresnel, fresnel_conductor};
 pub use lambertian::{Lambertian, LambertianBsdf};
@@ -224,13 +225,19 @@ impl MaterialDesc {
 
     /// Whether highlights have a direction, so that it matters how coordinates lie on the shape.
     pub(crate) fn is_anisotropic(&self) -> bool {
-        matches!(self, Self::Conductor(m) if m.anisotropy > 0.0)
+        match self {
+            Self::Conductor(m) => m.anisotropy > 0.0,
+            Self::Principled(m) => m.is_anisotropic(),
+            _ => false,
+        }
     }
 
-    /// The colour in which it shines, if it does, and whether its back does, too.
-    pub(crate) fn emission(&self) -> Option<(&Color, bool)> {
+    /// How it shines, if it does.
+    #[inline]
+    pub(crate) fn emission(&self) -> Option<Emission<'_>> {
         match self {
-            Self::Emissive(m) => Some((&m.radiance, m.two_sided)),
+            Self::Emissive(m) => Some(m.emission()),
+            Self::Principled(m) => m.emission(),
             _ => None,
         }
     }
@@ -238,10 +245,7 @@ impl MaterialDesc {
     /// Radiance that the surface itself sends along `wo`.
     #[inline]
     pub fn le(&self, wo: Vec3, textures: &impl Textures) -> Spectrum {
-        match self {
-            Self::Emissive(m) => m.le(wo, textures),
-            _ => Spectrum::BLACK,
-        }
+        self.emission().map_or(Spectrum::BLACK, |emission| emission.le(wo, textures))
     }
 }
 

@@ -48,10 +48,10 @@ mod tests;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
-use crate::color::{Rgb, Spectrum};
-use crate::material::ThinFilm;
+use crate::color::{LUMENS_PER_WATT, Rgb, Spectrum};
 use crate::material::microfacet::Ggx;
 use crate::material::reflected::Boundary;
+use crate::material::{Emission, ThinFilm};
 use crate::names::Named;
 use crate::texture::{Color, Scalar, Textures};
 use crate::validate::Checker;
@@ -132,6 +132,12 @@ pub struct Principled {
     /// Index of refraction of the film, 1..5.
     #[schemars(range(min = 1.0, max = 5.0))]
     pub thin_film_ior: f32,
+    /// Luminance of the light that it sends out on the side of the normal where `emission_color` is white, cd / m², 0..1e9; 203 of
+    /// them are a radiance of 1, as light is even over the visible.
+    #[schemars(range(min = 0.0, max = 1e9))]
+    pub emission_luminance: f32,
+    /// Color of that light, 0..1 in each channel.
+    pub emission_color: Color,
 }
 
 impl Default for Principled {
@@ -163,6 +169,8 @@ impl Default for Principled {
             thin_film_weight: 0.0.into(),
             thin_film_thickness: 0.5.into(),
             thin_film_ior: 1.4,
+            emission_luminance: 0.0,
+            emission_color: grey(1.0),
         }
     }
 }
@@ -175,6 +183,7 @@ impl Principled {
         c.in_range("coat_darkening", self.coat_darkening, 0.0, 1.0);
         c.in_range("specular_ior", self.specular_ior, 1.0, Boundary::MAX_ETA);
         c.in_range("coat_ior", self.coat_ior, 1.0, Boundary::MAX_ETA);
+        c.in_range("emission_luminance", self.emission_luminance, 0.0, 1e9);
         c.in_range("transmission_depth", self.transmission_depth, 0.0, 1e15);
         c.in_range("thin_film_ior", self.thin_film_ior, 1.0, ThinFilm::MAX_ETA);
         let mut copy = self.clone();
@@ -185,7 +194,7 @@ impl Principled {
 
     /// Its colours and its numbers that can be textures, by their keys, and how large numbers can be.
     #[expect(clippy::type_complexity, reason = "said once")]
-    fn parts(&mut self) -> ([(&'static str, &mut Color); 6], [(&'static str, &mut Scalar, f32); 14]) {
+    fn parts(&mut self) -> ([(&'static str, &mut Color); 7], [(&'static str, &mut Scalar, f32); 14]) {
         let colors = [
             ("base_color", &mut self.base_color),
             ("specular_color", &mut self.specular_color),
@@ -193,6 +202,7 @@ impl Principled {
             ("subsurface_color", &mut self.subsurface_color),
             ("coat_color", &mut self.coat_color),
             ("fuzz_color", &mut self.fuzz_color),
+            ("emission_color", &mut self.emission_color),
         ];
         let numbers = [
             ("base_weight", &mut self.base_weight, 1.0),
@@ -218,6 +228,18 @@ impl Principled {
         let (colors, numbers) = self.parts();
         let colors = colors.into_iter().map(|(key, color)| (key, color.texture()));
         colors.chain(numbers.into_iter().map(|(key, number, _)| (key, number.texture()))).collect()
+    }
+
+    /// Whether highlights can have a direction.
+    pub(crate) fn is_anisotropic(&self) -> bool {
+        self.specular_roughness_anisotropy.number() != Some(0.0)
+    }
+
+    /// The light that it sends out, if any.
+    #[inline]
+    pub(crate) fn emission(&self) -> Option<Emission<'_>> {
+        let scale = self.emission_luminance / LUMENS_PER_WATT;
+        (scale > 0.0).then(|| Emission { color: &self.emission_color, scale, two_sided: false })
     }
 
     #[inline(never)]

@@ -188,6 +188,15 @@ fn weights() {
     assert!(dark < 0.75 * light, "{dark} {light}");
 }
 
+/// 203 cd / m² are one W / (m² sr) of light that is even over the visible.
+#[test]
+fn shines() {
+    let lamp = Principled { emission_luminance: 406.0, emission_color: rgb(1.0, 0.5, 0.0), ..white() };
+    let le = lamp.emission().unwrap().le(Vec3::Z, &NoTextures).to_rgb();
+    assert!(le.iter().zip([2.0, 1.0, 0.0]).all(|(a, b)| (a - b).abs() < 3e-3), "{le:?}");
+    assert!(lamp.emission().unwrap().le(-Vec3::Z, &NoTextures).is_black() && white().emission().is_none());
+}
+
 #[test]
 fn grazing_light_is_finite() {
     let coat = Principled {
