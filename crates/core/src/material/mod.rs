@@ -76,7 +76,7 @@ pub enum MaterialDesc {
     /// Matte under a clear coat.
     Plastic(Plastic),
     /// Layers: fuzz, a coat, metal or glass or something matte.
-    Principled(Principled),
+    Principled(Box<Principled>),
     /// Velvet, cloth.
     Sheen(Sheen),
     /// Mirror to rough metal.

@@ -172,10 +172,10 @@ fn layered() -> SceneDesc {
         ..Principled::default()
     };
     for (name, material) in [
-        ("lamp", MaterialDesc::Principled(lamp)),
+        ("lamp", MaterialDesc::Principled(lamp.into())),
         ("ball", MaterialDesc::Plastic(ball)),
         ("steel", MaterialDesc::Conductor(steel)),
-        ("layers", MaterialDesc::Principled(layers)),
+        ("layers", MaterialDesc::Principled(layers.into())),
     ] {
         with(&mut desc, name, material);
     }

@@ -182,21 +182,19 @@ impl PrincipledBsdf {
             * wi.z
             * (view.chance(Part::Cosine)
                 + view.chance(Part::Horizon) * horizon_over_cosine(self.ggx.alpha().max(Ggx::MIN_ALPHA), wi.z));
-        if !self.is_smooth() {
-            if let Some(facet) = self.ggx.facet(wo, wi, 1.0) {
-                let share = self.facet_reflectance(facet.cos_o.min(1.0), view.inside);
-                let tint = Spectrum::from(self.coat_tint) * view.under_coat;
-                eval += share * tint * (self.ggx.g2_over_g1(wo, wi) * facet.pdf);
-                pdf += view.chance(Part::Facets) * facet.pdf;
-            }
+        let facet = if self.is_smooth() { None } else { self.ggx.facet(wo, wi, 1.0) };
+        if let Some(facet) = facet {
+            let share = self.facet_reflectance(facet.cos_o.min(1.0), view.inside);
+            let tint = Spectrum::from(self.coat_tint) * view.under_coat;
+            eval += share * tint * (self.ggx.g2_over_g1(wo, wi) * facet.pdf);
+            pdf += view.chance(Part::Facets) * facet.pdf;
         }
-        if self.coat_weight > 0.0 && !self.coat.is_smooth() {
-            let ggx = self.coat.ggx();
-            if let Some(facet) = ggx.facet(wo, wi, 1.0) {
-                let share = self.coat_weight * view.under_fuzz * self.coat.fresnel(facet.cos_o);
-                eval += Spectrum::ONE * (share * ggx.g2_over_g1(wo, wi) * facet.pdf);
-                pdf += view.chance(Part::Coat) * facet.pdf;
-            }
+        let (coat, rough_coat) = (self.coat.ggx(), self.coat_weight > 0.0 && !self.coat.is_smooth());
+        let facet = if rough_coat { coat.facet(wo, wi, 1.0) } else { None };
+        if let Some(facet) = facet {
+            let share = self.coat_weight * view.under_fuzz * self.coat.fresnel(facet.cos_o);
+            eval += Spectrum::ONE * (share * coat.g2_over_g1(wo, wi) * facet.pdf);
+            pdf += view.chance(Part::Coat) * facet.pdf;
         }
         if self.fuzz_weight > 0.0 {
             let fuzz = Charlie::from_roughness(self.fuzz_roughness).eval(wo, wi) * wi.z;
@@ -344,7 +342,7 @@ impl PrincipledBsdf {
     }
 
     /// What goes from facet to facet of metal: the lobe over 1 − E(wi), and its share of the light.
-    fn from_facet_to_facet(&self, wo: Vec3) -> (Spectrum, Spectrum) {
+    fn facet_to_facet(&self, wo: Vec3) -> (Spectrum, Spectrum) {
         if self.metal == 0.0 || self.is_smooth() || wo.z <= 0.0 {
             return (Spectrum::BLACK, Spectrum::BLACK);
         }
@@ -391,7 +389,7 @@ impl PrincipledBsdf {
         let by_coat = if self.coat_weight > 0.0 { self.coat_weight * self.coat.share(cos) } else { 0.0 };
         let under_coat = under_fuzz * (1.0 - by_coat);
         let left = if self.opaque > 0.0 { self.left_by_facets(cos) } else { Spectrum::ONE };
-        let (often, often_share) = self.from_facet_to_facet(wo);
+        let (often, often_share) = self.facet_to_facet(wo);
         let tint = Spectrum::from(self.coat_tint) * under_coat;
         let most = |color: Spectrum| (color * tint).max_component();
         let half_of_often = 0.5 * most(often_share);

@@ -239,7 +239,7 @@ impl Principled {
     #[inline]
     pub(crate) fn emission(&self) -> Option<Emission<'_>> {
         let scale = self.emission_luminance / LUMENS_PER_WATT;
-        (scale > 0.0).then(|| Emission { color: &self.emission_color, scale, two_sided: false })
+        (scale > 0.0).then_some(Emission { color: &self.emission_color, scale, two_sided: false })
     }
 
     #[inline(never)]

@@ -117,7 +117,7 @@ fn lobes() -> impl Iterator<Item = (&'static str, MaterialDesc, Reciprocal)> {
         ),
         ("rough metal", MaterialDesc::Conductor(gold), Reciprocal::Yes),
         ("plastic", MaterialDesc::Plastic(Plastic { roughness: 0.4.into(), ..Plastic::default() }), Reciprocal::Yes),
-        ("layers", MaterialDesc::Principled(layers), Reciprocal::No),
+        ("layers", MaterialDesc::Principled(layers.into()), Reciprocal::No),
         (
             "rough glass",
             MaterialDesc::Dielectric(Dielectric { eta: 1.5, roughness: 0.5.into(), ..Dielectric::default() }),
