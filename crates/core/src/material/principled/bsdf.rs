@@ -31,8 +31,10 @@ pub struct PrincipledBsdf {
     pub(super) ggx: Ggx,
     /// By which they reflect if they are not metal, at least 1.
     pub(super) eta: f32,
-    /// By which light that goes through is bent.
+    /// By which light that goes through is bent; 1 of what has no inside.
     pub(super) eta_through: f32,
+    /// Whether there is no inside.
+    pub(super) is_thin: bool,
     pub(super) transmission: Rgb,
     pub(super) coat: Boundary,
     pub(super) coat_weight: f32,
@@ -112,10 +114,11 @@ impl PrincipledBsdf {
     /// Whether what goes through goes one way.
     #[inline]
     fn is_smooth_through(&self) -> bool {
-        self.ggx.alpha() * (self.eta_through - 1.0) < Ggx::MIN_ALPHA * self.eta_through
+        let narrow = self.ggx.alpha() * (self.eta_through - 1.0) < Ggx::MIN_ALPHA * self.eta_through;
+        self.is_smooth() || narrow && !self.is_thin
     }
 
-    #[inline]
+    #[inline(never)]
     pub(crate) fn is_delta(&self) -> bool {
         let smooth_coat = self.coat_weight == 0.0 || self.coat.is_smooth();
         let smooth_base = self.is_smooth() && (self.clear == 0.0 || self.is_smooth_through());
@@ -126,7 +129,7 @@ impl PrincipledBsdf {
     pub(crate) fn sample(&self, wo: Vec3, uc: f32, u: Vec2) -> Option<BsdfSample> {
         let side = 1.0_f32.copysign(wo.z);
         let up = upright(wo, side);
-        let view = self.view(up, side < 0.0);
+        let view = self.view(up, side < 0.0 && !self.is_thin);
         let part = view.choose(uc)?;
         let (wi, eta) = match part {
             Part::Fuzz => {
@@ -140,6 +143,7 @@ impl PrincipledBsdf {
             Part::Cosine => (cosine_hemisphere(u), 1.0),
             Part::Horizon => (near_horizon(self.ggx.alpha(), u), 1.0),
             Part::Through if self.is_smooth_through() => return self.straight_through(wo, &view),
+            Part::Through if self.is_thin => (upright(reflect_at(up, self.ggx.sample(up, u)), -1.0), 1.0),
             Part::Through => {
                 let eta = self.eta_behind(&view);
                 let m = self.ggx.sample(up, u);
@@ -160,7 +164,7 @@ impl PrincipledBsdf {
     #[inline(never)]
     pub(crate) fn eval_pdf(&self, wo: Vec3, wi: Vec3) -> (Spectrum, f32) {
         let side = 1.0_f32.copysign(wo.z);
-        self.eval_pdf_from(&self.view(upright(wo, side), side < 0.0), upright(wi, side))
+        self.eval_pdf_from(&self.view(upright(wo, side), side < 0.0 && !self.is_thin), upright(wi, side))
     }
 
     fn eval_pdf_from(&self, view: &View, wi: Vec3) -> (Spectrum, f32) {
@@ -229,12 +233,14 @@ impl PrincipledBsdf {
         if self.clear == 0.0 || self.is_smooth_through() {
             return (Spectrum::BLACK, 0.0);
         }
-        let eta = self.eta_behind(view);
+        // Of what has no inside, as if it were reflected to the other side.
+        let (wi, eta) = if self.is_thin { (upright(wi, -1.0), 1.0) } else { (wi, self.eta_behind(view)) };
         let Some(facet) = self.ggx.facet(view.wo, wi, eta) else {
             return (Spectrum::BLACK, 0.0);
         };
+        let seen = if self.is_thin { self.ggx.g2_over_g1(view.wo, wi) } else { self.ggx.g1(wi) / (eta * eta) };
         let share = self.goes_through(view, facet.cos_o.min(1.0));
-        (share * (self.ggx.g1(wi) / (eta * eta) * facet.pdf), view.chance(Part::Through) * facet.pdf)
+        (share * (seen * facet.pdf), view.chance(Part::Through) * facet.pdf)
     }
 
     fn coat_mirror(&self, wo: Vec3, view: &View) -> BsdfSample {
@@ -260,7 +266,7 @@ impl PrincipledBsdf {
 
     /// The part of the light that goes through facets at a cosine, by all layers.
     fn goes_through(&self, view: &View, cos: f32) -> Spectrum {
-        let left = rest(self.clear_reflectance(cos, view.inside));
+        let left = rest(self.pane_reflectance(cos, view.inside));
         left * Spectrum::from(self.transmission) * Spectrum::from(self.coat_tint) * (self.clear * view.under_coat)
     }
 
@@ -277,7 +283,7 @@ impl PrincipledBsdf {
         }
         if self.clear > 0.0 {
             let color = if inside { Spectrum::ONE } else { self.specular_color.into() };
-            sum += self.clear_reflectance(cos, inside) * color * self.clear;
+            sum += self.pane_reflectance(cos, inside) * color * self.clear;
         }
         if self.metal > 0.0 {
             let bare = self.metal_reflectance(cos);
@@ -301,6 +307,12 @@ impl PrincipledBsdf {
         } else {
             bare
         }
+    }
+
+    /// What is clear reflects, without its color: a facet, or, if there is no inside, a pane of two, with all that goes to and fro.
+    fn pane_reflectance(&self, cos: f32, inside: bool) -> Spectrum {
+        let once = self.clear_reflectance(cos, inside);
+        if self.is_thin { Spectrum::from_rgb(once.to_rgb().map(|r| 2.0 * r / (1.0 + r))) } else { once }
     }
 
     /// F of metal.
@@ -364,7 +376,7 @@ impl PrincipledBsdf {
         if self.clear > 0.0 {
             // Some facets see what this one does not.
             let other = if inside { Boundary::new(0.0, self.eta_through).mean_share_inside() } else { 0.0 };
-            let here = self.clear_reflectance(cos, inside);
+            let here = self.pane_reflectance(cos, inside);
             sum += here.lerp(Spectrum::ONE * other, 0.5 * self.ggx.alpha()) * self.clear;
         }
         sum
@@ -376,7 +388,7 @@ impl PrincipledBsdf {
         if self.clear == 0.0 || self.is_smooth_through() && Fresnel::dielectric(cos, eta).cos_t == 0.0 {
             return 0.0;
         }
-        let through = rest(self.clear_reflectance(cos, inside)).clamp(0.02, 1.0);
+        let through = rest(self.pane_reflectance(cos, inside)).clamp(0.02, 1.0);
         (through * Spectrum::from(self.transmission)).max_component() * self.clear
     }
 

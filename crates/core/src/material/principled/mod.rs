@@ -16,14 +16,15 @@
 //!
 //! F = S − (1 − t) S(1/7) cos (1 − cos)⁶ / (1/7 (6/7)⁶), S = F₀ + (1 − F₀) (1 − cos)⁵,
 //!
-//! and what goes from facet to facet comes back as in [`Conductor`](crate::material::Conductor). A white furnace leaves a white one as it is,
-//! but rough glass loses some. Reciprocal without fuzz, coat and film; the same on both sides, but for glass.
+//! and what goes from facet to facet comes back as in [`Conductor`](crate::material::Conductor). White loses no light, but rough glass
+//! loses some. Reciprocal without fuzz, coat and film; the same on both sides, but for glass.
 //!
 //! Under a coat, highlights get wider, indices are over that of the coat, and colours darken by the light that the coat sends
 //! back inside (`coat_darkening`). A film interferes on the base's facets (see [`ThinFilm`]).
 //!
-//! Andersson, Edmondson, Guertault, Herubel, King, Kutz, Machizaud, Portsmouth, Servant & Stone 2024, "OpenPBR Surface specification",
-//! Academy Software Foundation. What it has below the surface is told at the surface: `subsurface_weight` mixes the matte base
+//! A sheet (`geometry_thin_walled`) reflects at both of its boundaries, and rough ones scatter what goes through as what is reflected.
+//!
+//! Andersson et al. 2024, "OpenPBR Surface specification", Academy Software Foundation. What it has below the surface is told at the surface: `subsurface_weight` mixes the matte base
 //! with `subsurface_color`, and `transmission_color` is what is left of the light each time that it goes through.
 //!
 //! Directions come from one layer, chosen by about its share of the light, and are weighed by all of them.
@@ -138,6 +139,8 @@ pub struct Principled {
     pub emission_luminance: f32,
     /// Color of that light, 0..1 in each channel.
     pub emission_color: Color,
+    /// Whether the surface is a sheet without an inside, such as a pane or a leaf, that light goes through unbent.
+    pub geometry_thin_walled: bool,
 }
 
 impl Default for Principled {
@@ -171,6 +174,7 @@ impl Default for Principled {
             thin_film_ior: 1.4,
             emission_luminance: 0.0,
             emission_color: grey(1.0),
+            geometry_thin_walled: false,
         }
     }
 }
@@ -272,7 +276,8 @@ impl Principled {
             clear,
             ggx: facets(coat.roughen(roughness), number(&self.specular_roughness_anisotropy)),
             eta: coat.eta_below(self.specular_ior, specular),
-            eta_through: self.specular_ior,
+            eta_through: if self.geometry_thin_walled { 1.0 } else { self.specular_ior },
+            is_thin: self.geometry_thin_walled,
             transmission: Rgb(color(&self.transmission_color).to_rgb()),
             coat: coat.boundary,
             coat_weight,

@@ -65,7 +65,9 @@ fn reciprocal_without_layers_above() {
     let brushed = Principled { specular_roughness_anisotropy: 0.7.into(), ..metal(0.4) };
     let smooth = Principled { specular_roughness: 0.0.into(), ..plastic.clone() };
     let frosted = Principled { transmission_weight: 0.5.into(), specular_roughness: 0.5.into(), ..plastic.clone() };
-    for material in [plastic, mixed, brushed, smooth, frosted, metal(1.0), glass(0.4), glass(0.0)] {
+    let sheet = Principled { geometry_thin_walled: true, ..frosted.clone() };
+    let pane = Principled { geometry_thin_walled: true, ..glass(0.0) };
+    for material in [plastic, mixed, brushed, smooth, frosted, sheet, pane, metal(1.0), glass(0.4), glass(0.0)] {
         check_lobe(&lobe(&material), Reciprocal::Yes).unwrap();
     }
 }
@@ -149,12 +151,30 @@ fn rough_white_makes_no_light() {
 #[test]
 fn clear_glass_keeps_all_light() {
     let film = Principled { thin_film_weight: 1.0.into(), ..glass(0.0) };
-    for material in [glass(0.0), film] {
+    let pane = Principled { geometry_thin_walled: true, ..film.clone() };
+    for material in [glass(0.0), film, pane] {
         for cos in [1.0_f32, 0.7, 0.3, 0.05, -0.9, -0.5, -0.1] {
             for (share, error) in share(&material, cos) {
                 assert!((share - 1.0).abs() < 1e-3 + 3.0 * error, "{share} ± {error} at {cos}");
             }
         }
+    }
+}
+
+/// A pane reflects as two boundaries, and what goes through is not bent.
+#[test]
+fn panes_bend_nothing() {
+    let pane = Principled { geometry_thin_walled: true, ..glass(0.0) };
+    for side in [1.0, -1.0] {
+        let wo = Vec3::new(0.6, 0.0, 0.8 * side);
+        let samples = [0.0, 1.0 - f32::EPSILON].map(|uc| lobe(&pane).sample(wo, uc, Vec2::ZERO).unwrap());
+        let r = Boundary::new(0.0, 1.5).fresnel(0.8);
+        let share = |s: crate::material::BsdfSample| s.weight.to_rgb()[0] * s.pdf;
+        assert!(
+            (share(samples[0]) - 2.0 * r / (1.0 + r)).abs() < 1e-5
+                && (share(samples[0]) + share(samples[1]) - 1.0).abs() < 1e-5
+        );
+        assert!((samples[1].wi + wo).length() < 1e-6 && samples[1].eta == 1.0 && samples[1].delta);
     }
 }
 
