@@ -15,7 +15,7 @@ from collections.abc import Callable
 from math import cos, pi, sin, sqrt
 from pathlib import Path
 
-from modelling import Mesh, Vector, corners, curve, joined, lathe, plus, pulled, rounded_box, surface, torus, tube
+from modelling import Mesh, Vector, corners, curve, joined, lathe, number, plus, pulled, rounded_box, surface, torus, tube
 
 FOLDER = Path(__file__).resolve().parent
 
@@ -92,6 +92,157 @@ def metal_disc(k: int) -> Mesh:
     """What the k-th ball of metals.toml lies on: four in front, four behind."""
     outline = corners([(0.60, 0, 0), (0.62, 0.01, 0.008), (0.62, 0.10, 0.02), (0.36, 0.10, 0.01), (0.30, 0.045, 0)], 3)
     return lathe(outline, 64).moved(1.5 * (k % 4) - 2.25 + 0.75 * (k // 4) - 0.375, 0, 0.7 - 1.5 * (k // 4))
+
+
+# Glass on a table.
+
+
+def goblet() -> Mesh:
+    """A wine glass: its bowl is a shell, its stem and foot are solid."""
+    outside = [(0.0, 0.0), (0.34, 0.0), (0.352, 0.016), (0.20, 0.045), (0.055, 0.11), (0.04, 0.30), (0.05, 0.66), (0.16, 0.76), (0.36, 0.98)]
+    outside += [(0.41, 1.22), (0.38, 1.48), (0.335, 1.70)]
+    inside = [(0.335, 1.70), (0.327, 1.706), (0.318, 1.70), (0.362, 1.48), (0.392, 1.22), (0.34, 0.995), (0.15, 0.80), (0.0, 0.765)]
+    return lathe(curve(outside, 4) + curve(inside, 4), 56)
+
+
+def tumbler() -> Mesh:
+    """A heavy tumbler with a thick bottom."""
+    outline = [(0, 0, 0), (0.33, 0, 0.05), (0.38, 0.92, 0.015), (0.345, 0.92, 0.015), (0.29, 0.2, 0.08), (0, 0.16, 0)]
+    return lathe(corners(outline, 6), 64)
+
+
+def flask() -> Mesh:
+    """A round bottle with a long neck and a lip."""
+    outside = [(0.0, 0.0), (0.30, 0.0), (0.36, 0.03), (0.52, 0.24), (0.56, 0.48), (0.45, 0.78), (0.22, 0.98), (0.125, 1.15), (0.11, 1.55), (0.15, 1.70)]
+    inside = [(0.15, 1.70), (0.14, 1.715), (0.118, 1.70), (0.075, 1.55), (0.085, 1.15), (0.18, 0.95), (0.41, 0.75), (0.515, 0.48), (0.475, 0.26)]
+    inside += [(0.33, 0.075), (0.2, 0.06), (0.0, 0.075)]
+    return lathe(curve(outside, 4) + curve(inside, 3), 48)
+
+
+def bowl() -> Mesh:
+    """A shallow bowl on a foot."""
+    outside = [(0.0, 0.0), (0.22, 0.0), (0.23, 0.02), (0.2, 0.06), (0.42, 0.16), (0.62, 0.36), (0.70, 0.55)]
+    inside = [(0.70, 0.55), (0.69, 0.565), (0.672, 0.555), (0.585, 0.37), (0.40, 0.195), (0.15, 0.12), (0.0, 0.115)]
+    return lathe(curve(outside, 4) + curve(inside, 4), 56)
+
+
+# Chess, the side of a square being 1.
+
+PAWN = [(0.0, 0.0), (0.30, 0.0), (0.315, 0.04), (0.29, 0.11), (0.235, 0.15), (0.21, 0.20), (0.125, 0.34), (0.095, 0.54), (0.18, 0.59), (0.10, 0.63)]
+PAWN_HEAD = (0.76, 0.175)
+BISHOP = [(0.0, 0.0), (0.34, 0.0), (0.355, 0.045), (0.33, 0.12), (0.26, 0.17), (0.23, 0.23), (0.13, 0.42), (0.10, 0.80), (0.21, 0.86), (0.12, 0.91)]
+BISHOP += [(0.19, 1.02), (0.17, 1.18), (0.07, 1.33), (0.045, 1.36), (0.06, 1.41), (0.0, 1.46)]
+QUEEN = [(0.0, 0.0), (0.37, 0.0), (0.385, 0.05), (0.36, 0.13), (0.28, 0.19), (0.25, 0.26), (0.145, 0.5), (0.11, 1.05), (0.24, 1.12), (0.13, 1.18)]
+QUEEN += [(0.17, 1.36), (0.25, 1.58), (0.20, 1.56), (0.10, 1.60), (0.05, 1.64), (0.065, 1.70), (0.0, 1.75)]
+KING = QUEEN[:10] + [(0.16, 1.36), (0.22, 1.60), (0.18, 1.65), (0.06, 1.70), (0.0, 1.72)]
+
+
+def pawn() -> Mesh:
+    """A pawn."""
+    y, radius = PAWN_HEAD
+    head = []
+    for k in range(9):
+        a = -0.86 + (pi / 2 + 0.86) * k / 8
+        head.append((radius * cos(a) if k < 8 else 0.0, y + radius * sin(a), cos(a), sin(a)))
+    return lathe(curve(PAWN, 2) + head, 28)
+
+
+def king() -> Mesh:
+    """A king with his cross."""
+    cross_bars = [rounded_box((0.055, 0.24, 0.055), 0.012, 2).moved(0, 1.82, 0), rounded_box((0.17, 0.055, 0.055), 0.012, 2).moved(0, 1.84, 0)]
+    return joined([lathe(curve(KING, 2), 28), *cross_bars])
+
+
+def chess(pieces: dict[str, list[tuple[float, float]]]) -> Mesh:
+    """Pieces at places x, z."""
+    makes = {"pawn": pawn, "king": king, "bishop": lambda: lathe(curve(BISHOP, 2), 28), "queen": lambda: lathe(curve(QUEEN, 2), 28)}
+    return joined([makes[name]().moved(x, 0, z) for name, places in pieces.items() for x, z in places])
+
+
+LIGHT = {"pawn": [(-0.5, 1.5), (-2.5, -1.5), (1.5, -0.5)], "king": [(-1.5, 0.5)], "bishop": [(0.5, -2.5)]}
+DARK = {"pawn": [(0.5, 0.5), (2.5, -2.5), (-1.5, -3.5)], "queen": [(-0.5, -1.5)], "bishop": [(-3.5, -2.5)], "king": [(1.5, -3.5)]}
+
+
+# A courtyard, in metres.
+
+
+def walls() -> dict[str, Mesh]:
+    """Its walls, by their colour."""
+
+    def box(x0: float, x1: float, y0: float, y1: float, z0: float, z1: float) -> Mesh:
+        return rounded_box((x1 - x0, y1 - y0, z1 - z0), 0.012, 2).moved((x0 + x1) / 2, (y0 + y1) / 2, (z0 + z1) / 2)
+
+    steps = [box(-0.2 + 0.36 * k, 3.4, 0.19 * k, 0.19 * (k + 1), -3.0, -1.7) for k in range(9)]
+    return {
+        "pink": joined([box(-6, 0.6, -0.1, 3.9, -3.5, -3.0), box(2.2, 9, -0.1, 3.9, -3.5, -3.0), box(0.59, 2.21, 2.95, 3.9, -3.5, -3.0)]),
+        "ochre": box(3.4, 3.9, -0.1, 3.1, -3.0, 1.2),
+        "violet": box(-6.0, -2.6, -0.1, 2.4, -0.9, -0.45),
+        "white": joined(steps),
+        "far": box(-8, 12, -0.1, 2.6, -9.5, -9),
+    }
+
+
+def agave(seed: int, size: float) -> Mesh:
+    """A rosette of thick pointed leaves."""
+    rng = random.Random(seed)
+    mesh = Mesh()
+    for k in range(26):
+        rise = 78 - 66 * (k / 25) ** 0.8
+        length = size * (0.62 + 0.38 * sin(pi * (0.25 + 0.6 * k / 25))) * rng.uniform(0.92, 1.05)
+
+        def place(u: float, v: float, length: float = length) -> Vector:
+            v = min(max(v, 0.0), 1.0)
+            wide = 0.105 * length * (0.75 + 1.5 * v - 2.25 * v**2.2) + 0.002
+            a = 2 * pi * u
+            thick = 0.4 * wide * (sin(a) if sin(a) < 0 else 0.25 * sin(a)) + 0.55 * wide * cos(a) ** 2
+            return (wide * cos(a), thick + 0.16 * length * v * v * v, 0.03 * size + length * v)
+
+        mesh += _inside_out(surface(place, 8, 7)).turned("x", -rise).turned("y", 137.508 * k)
+    return mesh
+
+
+def pot() -> Mesh:
+    """A pot for it."""
+    outline = [(0, 0, 0), (0.24, 0, 0.02), (0.33, 0.38, 0), (0.36, 0.38, 0.015), (0.365, 0.46, 0.015), (0.31, 0.46, 0.01), (0.29, 0.41, 0), (0, 0.41, 0)]
+    return lathe(corners(outline, 3), 48).moved(-1.35, 0, 0.25)
+
+
+# The grid of materials.
+
+GRID = (7, 4)  # columns, rows
+STEP = (1.2, 0.96, 1.0)  # to the next column; up and back to the next row
+LOWEST = 0.34
+
+
+def grid_place(k: int) -> Vector:
+    """Where the k-th material stands: from left to right, and from below to above."""
+    column, row = k % GRID[0], k // GRID[0]
+    return ((column - (GRID[0] - 1) / 2) * STEP[0], LOWEST + row * STEP[1], -row * STEP[2])
+
+
+def grid_steps() -> Mesh:
+    """The steps that materials stand on."""
+    width = GRID[0] * STEP[0] + 0.5
+    boxes = []
+    for row in range(GRID[1]):
+        y, z = LOWEST + row * STEP[1], -row * STEP[2]
+        boxes.append(rounded_box((width, 3, STEP[2] + 0.4), 0.02, 3).moved(0, y - 1.5, z - 0.2 - 0.05))
+    return joined(boxes)
+
+
+def grid_labels() -> Mesh:
+    """Their numbers, on the fronts of the steps."""
+    labels = []
+    for k in range(GRID[0] * GRID[1]):
+        x, y, z = grid_place(k)
+        labels.append(number(str(k + 1), 0.17).moved(x, y - 0.17, z + STEP[2] / 2 - 0.049))
+    return joined(labels)
+
+
+def grid_cube(k: int) -> Mesh:
+    """The small cube in front of the k-th ball."""
+    x, y, z = grid_place(k)
+    return rounded_box((0.24, 0.24, 0.24), 0.028, 2).turned("y", 28).moved(x + 0.37, y + 0.12, z + 0.25)
 
 
 # Marbles, in centimetres.
@@ -319,6 +470,59 @@ def cup() -> Mesh:
 
 TABLE = (0.42, 0.0, -2.1)
 
+# Scenes that are long lists.
+
+MANY_LIGHTS = """\
+#:schema ../docs/formats/scene.schema.json
+# 640 lamps as small as cherries around three balls. Whoever lights a point asks one of them, chosen by what it can give there.
+# Written by generate.py; do not edit.
+
+[render]
+width = 960
+height = 480
+spp = 256
+
+[camera]
+look_from = [0, 2.0, 8.0]
+look_at = [0, 0.52, 0]
+vfov = 21
+aperture = 0.04
+focus_distance = 7.2
+
+[environment.gradient]
+bottom = [0.002, 0.002, 0.004]
+top = [0.006, 0.010, 0.024]
+
+[material]
+floor.oren-nayar = { albedo = 0.55, roughness = 0.3 }
+chalk.lambertian.albedo = 0.8
+mirror.conductor = { metal = "silver", roughness = 0.06 }
+satin.conductor = { metal = "silver", roughness = 0.35 }
+"""
+
+
+def many_lights() -> str:
+    """Lamps as the seeds of a sunflower, coloured around the circle."""
+    hues, count = 12, 640
+    lines = [MANY_LIGHTS.rstrip()]
+    for k in range(hues):
+        channels = [max(0.0, 0.5 + 0.5 * cos(2 * pi * (k / hues - third / 3))) ** 1.8 for third in range(3)]
+        lines.append(f"lamp-{k + 1}.emissive.radiance = [{', '.join(f'{3.2 * c + 0.05:.2f}' for c in channels)}]")
+    lines += ["", "[[shape.quad]]", "corner = [-60, 0, 60]", "u = [120, 0, 0]", "v = [0, 0, -120]", 'material = "floor"']
+    lines += ["", "[shape]", "sphere = ["]
+    balls = ((-1.0, 0.1, 0.62, "chalk"), (0.45, -0.35, 0.85, "mirror"), (1.25, 0.85, 0.38, "satin"))
+    for x, z, radius, name in balls:
+        lines.append(f'  {{ center = [{x}, {radius}, {z}], radius = {radius}, material = "{name}" }},')
+    for i in range(count):
+        turn, far = 0.381966 * i, 0.17 * sqrt(i + 6)
+        x, z = far * cos(2 * pi * turn), far * sin(2 * pi * turn)
+        if any((x - bx) ** 2 + (z - bz) ** 2 < (radius * 0.8 + 0.08) ** 2 for bx, bz, radius, _ in balls):
+            continue
+        hue = int((0.5 + 0.5 * sin(2 * pi * (0.16 * far + 0.5 * (x / 9)))) * (hues - 1) + 0.5)
+        lines.append(f'  {{ center = [{x:.3f}, 0.036, {z:.3f}], radius = 0.036, material = "lamp-{hue + 1}" }},')
+    return "\n".join([*lines, "]", ""])
+
+
 # The table of what is written.
 
 MESHES: dict[str, Callable[[], Mesh]] = {
@@ -331,7 +535,20 @@ MESHES: dict[str, Callable[[], Mesh]] = {
     "bottle-glass": bottle_glass,
     "bottle-level": bottle_level,
     "bottle-liquid": bottle_liquid,
+    "chess-frame": lambda: rounded_box((8.9, 0.34, 8.9), 0.05, 4).moved(0, -0.171, 0),
+    "chess-dark": lambda: chess(DARK),
+    "chess-light": lambda: chess(LIGHT),
+    "court-agave": lambda: agave(3, 0.95).moved(-1.35, 0.42, 0.25),
+    "court-pot": pot,
+    **{f"court-{name}": lambda name=name: walls()[name] for name in ("pink", "ochre", "violet", "white", "far")},
     "disc": disc,
+    "glass-bowl": lambda: bowl().moved(1.55, 0, 0.55),
+    "glass-flask": lambda: flask().moved(-1.2, 0, -0.35),
+    "glass-goblet": lambda: goblet().moved(0.35, 0, -0.55),
+    "glass-tumbler": lambda: tumbler().moved(-0.3, 0, 0.75),
+    "grid-labels": grid_labels,
+    "grid-steps": grid_steps,
+    **{f"grid-cube-{k + 1}": lambda k=k: grid_cube(k) for k in range(GRID[0] * GRID[1])},
     "room-armchair": armchair,
     "room-book-1": lambda: books()[0],
     "room-book-2": lambda: books()[1],
@@ -362,7 +579,9 @@ MESHES: dict[str, Callable[[], Mesh]] = {
 
 def files() -> dict[Path, bytes]:
     """Everything that is written, by its place."""
-    return {FOLDER / "meshes" / f"{name}.ply": make().ply() for name, make in MESHES.items()}
+    result = {FOLDER / "meshes" / f"{name}.ply": make().ply() for name, make in MESHES.items()}
+    result[FOLDER / "many-lights.toml"] = many_lights().encode()
+    return result
 
 
 def main(arguments: list[str]) -> int:
