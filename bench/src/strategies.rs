@@ -202,8 +202,10 @@ fn garden(image: Image) -> SceneDesc {
     let image = ImageEnvironment { file: String::new(), rotation: 0.0, scale: 1.0, image: Some(Arc::new(image)) };
     let mut desc = hall(0);
     desc.environment = EnvironmentDesc::Image(image);
-    desc.material
-        .insert("metal".to_owned(), MaterialDesc::Metal(Metal { albedo: Rgb::grey(0.8).into(), roughness: 0.3 }));
+    desc.material.insert(
+        "metal".to_owned(),
+        MaterialDesc::Metal(Metal { albedo: Rgb::grey(0.8).into(), roughness: 0.3.into() }),
+    );
     desc.shape.sphere.iter_mut().step_by(2).for_each(|ball| ball.material = Some("metal".to_owned()));
     desc
 }

@@ -284,15 +284,17 @@ impl Textbook {
                 return Err("the book has no other light than its sky".to_owned());
             }
         };
-        let constant = |color: &Color| {
-            color.rgb().map(|rgb| rgb.0.into()).ok_or_else(|| "this book has no textures yet".to_owned())
-        };
+        let textured = || "this book has no textures yet".to_owned();
+        let constant = |color: &Color| color.rgb().map(|rgb| rgb.0.into()).ok_or_else(textured);
         let mut objects: Vec<Arc<dyn Hittable>> = Vec::new();
         for sphere in &desc.shape.sphere {
             let named = sphere.material.as_ref().and_then(|name| desc.material.get(name)).cloned();
             let material: Arc<dyn Material> = match named.unwrap_or_default() {
                 MaterialDesc::Lambertian(m) => Arc::new(Lambertian { albedo: constant(&m.albedo)? }),
-                MaterialDesc::Metal(m) => Arc::new(Metal { albedo: constant(&m.albedo)?, fuzz: m.roughness.into() }),
+                MaterialDesc::Metal(m) => Arc::new(Metal {
+                    albedo: constant(&m.albedo)?,
+                    fuzz: m.roughness.number().ok_or_else(textured)?.into(),
+                }),
                 MaterialDesc::Dielectric(m) => Arc::new(Dielectric { index_of_refraction: m.eta.into() }),
                 _ => return Err("the book has only matte, metal and clear materials".to_owned()),
             };

@@ -156,12 +156,14 @@ impl From<Material> for MaterialDesc {
         match material {
             Material::Lambertian { albedo } => Self::Lambertian(Lambertian { albedo: Rgb(albedo).into() }),
             Material::Metal { albedo, alpha } => Self::Conductor(Conductor {
-                reflectance: Some(Rgb(albedo)),
-                roughness: alpha.sqrt(),
+                reflectance: Some(Rgb(albedo).into()),
+                roughness: alpha.sqrt().into(),
                 compensation: false,
                 ..Conductor::default()
             }),
-            Material::Dielectric { ior, alpha } => Self::Dielectric(Dielectric { eta: ior, roughness: alpha.sqrt() }),
+            Material::Dielectric { ior, alpha } => {
+                Self::Dielectric(Dielectric { eta: ior, roughness: alpha.sqrt().into() })
+            }
         }
     }
 }

@@ -145,12 +145,15 @@ impl SceneDesc {
         c.within("camera", |c| self.camera.check(c));
         c.within("environment", |c| self.environment.check(c));
         c.within("light", |c| self.light.check(c));
-        c.within("texture", |c| texture::check(&self.texture, c));
+        let mut textures = texture::nesting(&self.texture);
+        c.within("texture", |c| texture::check(&self.texture, &mut textures, c));
         c.within("material", |c| {
             for (name, material) in &self.material {
                 c.within(name, |c| {
                     material.check(c);
-                    texture::check_names(material.clone().colors(), &self.texture, c);
+                    let mut material = material.clone();
+                    let (kind, names) = material.textures();
+                    textures.check_names(kind, names, c);
                 });
             }
         });
@@ -184,6 +187,6 @@ impl SceneDesc {
             return;
         };
         let words = ["material", "materials", "add one as [material.NAME.KIND]"];
-        c.no_such("material", words, name, self.material.keys());
+        c.no_such("material", words, name, self.material.keys().map(String::as_str));
     }
 }

@@ -89,8 +89,8 @@ impl Scene {
             index_of.insert(name, materials.len() as u32);
             materials.push(material.clone());
         }
-        let numbers = texture::Numbers::new(&desc.texture);
-        materials.iter_mut().for_each(|material| numbers.resolve(material.colors().1));
+        let numbers = texture::numbers(&desc.texture);
+        materials.iter_mut().for_each(|material| numbers.resolve(material.textures().1));
         let textures = texture::compile(&desc.texture);
         let (mut primitives, mut object_of, mut objects) = (Vec::new(), Vec::new(), Vec::new());
         for (_, _, shape) in desc.shape.iter() {

@@ -62,7 +62,7 @@ impl Checker {
         key: &str,
         [kind, kinds, otherwise]: [&str; 3],
         name: &str,
-        names: impl IntoIterator<Item = &'n String>,
+        names: impl IntoIterator<Item = &'n str>,
     ) {
         const MOST: usize = 12;
         let mut names = names.into_iter();

@@ -49,6 +49,7 @@ use crate::material::metals::NamedMetal;
 use crate::material::microfacet::{Ggx, reflect_at};
 use crate::math::{reflect, sin_cos_turns};
 use crate::sampling::cosine_hemisphere;
+use crate::texture::{Color, Scalar, Textures};
 use crate::validate::Checker;
 
 /// Metal of facets: `metal`, or `eta` and `k`, or `reflectance`.
@@ -63,10 +64,10 @@ pub struct Conductor {
     pub k: Option<Rgb>,
     /// Share of the light that is reflected at any angle, 0..1 in each channel, whatever the metal; 0.9 if
     /// nothing is said.
-    pub reflectance: Option<Rgb>,
+    pub reflectance: Option<Color>,
     /// 0 is a mirror, 1 completely rough; alpha is its square. Below 0.022 it is a perfect mirror.
     #[schemars(range(min = 0.0, max = 1.0))]
-    pub roughness: f32,
+    pub roughness: Scalar,
     /// Highlights of brushed metal are long in one direction, the more so the nearer this is to 1: along it alpha is divided
     /// by √(1 − 0.9 anisotropy), across it multiplied. 0 is the same all around.
     #[schemars(range(min = 0.0, max = 1.0))]
@@ -87,7 +88,7 @@ impl Default for Conductor {
             eta: None,
             k: None,
             reflectance: None,
-            roughness: 0.0,
+            roughness: 0.0.into(),
             anisotropy: 0.0,
             rotation: 0.0,
             compensation: true,
@@ -99,7 +100,7 @@ impl Conductor {
     const DEFAULT_REFLECTANCE: Rgb = Rgb::grey(0.9);
 
     pub(crate) fn check(&self, c: &mut Checker) {
-        c.in_range("roughness", self.roughness, 0.0, 1.0);
+        self.roughness.check_range("roughness", 0.0, 1.0, c);
         c.in_range("anisotropy", self.anisotropy, 0.0, 1.0);
         c.in_range("rotation", self.rotation, -360.0, 360.0);
         for (key, value, lo) in [("eta", self.eta, 0.01), ("k", self.k, 0.0)] {
@@ -108,8 +109,8 @@ impl Conductor {
                 c.in_range(key, bad, lo, 100.0);
             }
         }
-        if let Some(reflectance) = self.reflectance {
-            c.albedo("reflectance", reflectance);
+        if let Some(reflectance) = &self.reflectance {
+            reflectance.check_share("reflectance", c);
         }
         let hint = |text: &str| Some(text.to_owned());
         match (self.eta, self.k) {
@@ -130,12 +131,16 @@ impl Conductor {
     }
 
     #[inline]
-    pub(crate) fn bsdf(&self) -> ConductorBsdf {
+    pub(crate) fn bsdf(&self, textures: &impl Textures) -> ConductorBsdf {
         let reflectance = match (self.metal.map(NamedMetal::eta_k), self.eta, self.k) {
             (Some((eta, k)), ..) | (None, Some(eta), Some(k)) => Reflectance::Fresnel { eta, k },
-            _ => Reflectance::Constant(self.reflectance.unwrap_or(Self::DEFAULT_REFLECTANCE)),
+            _ => Reflectance::Constant(
+                self.reflectance
+                    .as_ref()
+                    .map_or(Self::DEFAULT_REFLECTANCE, |color| Rgb(color.share_at(textures).to_rgb())),
+            ),
         };
-        let (ggx, compensation) = (Ggx::from_roughness(self.roughness), self.compensation);
+        let (ggx, compensation) = (Ggx::from_roughness(self.roughness.at(textures, 0.0, 1.0)), self.compensation);
         let mut facets = ConductorBsdf { reflectance, ggx, x: Vec2::X, compensation };
         if self.anisotropy > 0.0 {
             facets.ggx = facets.ggx.stretched(self.anisotropy);
@@ -285,10 +290,11 @@ mod tests {
     use crate::material::microfacet::upright;
     use crate::sampler::Independent;
     use crate::testing::{Reciprocal, check_lobe};
+    use crate::texture::NoTextures;
     use crate::validate::Problem;
 
     fn gold(roughness: f32) -> Conductor {
-        Conductor { metal: Some(NamedMetal::Gold), roughness, ..Conductor::default() }
+        Conductor { metal: Some(NamedMetal::Gold), roughness: roughness.into(), ..Conductor::default() }
     }
 
     /// Without what goes from facet to facet.
@@ -297,7 +303,7 @@ mod tests {
     }
 
     fn white(roughness: f32) -> Conductor {
-        Conductor { reflectance: Some(Rgb::grey(1.0)), roughness, ..Conductor::default() }
+        Conductor { reflectance: Some(Rgb::grey(1.0).into()), roughness: roughness.into(), ..Conductor::default() }
     }
 
     fn direction(degrees: f32) -> Vec3 {
@@ -312,7 +318,7 @@ mod tests {
         for i in 0..N {
             let mut numbers = Independent::new(7, glam::UVec2::ZERO, i);
             let (uc, u) = (numbers.get_1d(), numbers.get_2d());
-            let weight = metal.bsdf().sample(wo, uc, u).map_or(Spectrum::BLACK, |s| s.weight).to_rgb();
+            let weight = metal.bsdf(&NoTextures).sample(wo, uc, u).map_or(Spectrum::BLACK, |s| s.weight).to_rgb();
             sum.iter_mut().zip(weight).for_each(|(sum, w)| *sum += f64::from(w) / f64::from(N));
         }
         sum
@@ -322,14 +328,14 @@ mod tests {
     fn lobe() {
         for roughness in [0.05, 0.3, 1.0] {
             for metal in [once(gold(roughness)), once(white(roughness))] {
-                check_lobe(&Bsdf::Conductor(metal.bsdf()), Reciprocal::Yes).unwrap();
+                check_lobe(&Bsdf::Conductor(metal.bsdf(&NoTextures)), Reciprocal::Yes).unwrap();
             }
         }
         // Narrow beside wide, the integral of the density would not be found; turned, rounding shows.
         for roughness in [0.3, 1.0] {
             let brushed = Conductor { anisotropy: 0.8, rotation: 30.0, ..white(roughness) };
             for metal in [gold(roughness), white(roughness), once(brushed.clone()), brushed] {
-                check_lobe(&Bsdf::Conductor(metal.bsdf()), Reciprocal::Yes).unwrap();
+                check_lobe(&Bsdf::Conductor(metal.bsdf(&NoTextures)), Reciprocal::Yes).unwrap();
             }
         }
     }
@@ -339,7 +345,7 @@ mod tests {
     fn smooth_lobe_has_its_density() {
         const N: u32 = 100_000;
         for (roughness, degrees) in [(0.05, 89.0), (0.1, 88.0), (0.3, 85.0)] {
-            let (metal, wo) = (white(roughness).bsdf(), direction(degrees));
+            let (metal, wo) = (white(roughness).bsdf(&NoTextures), direction(degrees));
             let mean = (0..N).map(|i| {
                 let mut numbers = Independent::new(8, glam::UVec2::ZERO, i);
                 let (uc, u) = (numbers.get_1d(), numbers.get_2d());
@@ -359,10 +365,13 @@ mod tests {
         for degrees in [0.0, 40.0, 70.0] {
             for side in [1.0, -1.0] {
                 let wo = upright(direction(degrees), side);
-                let fresnel = gold(0.0).bsdf().reflectance.at(wo.z.abs()).to_rgb();
-                let mirror = gold(0.02).bsdf().sample(wo, 0.0, Vec2::new(0.3, 0.9)).unwrap();
+                let fresnel = gold(0.0).bsdf(&NoTextures).reflectance.at(wo.z.abs()).to_rgb();
+                let mirror = gold(0.02).bsdf(&NoTextures).sample(wo, 0.0, Vec2::new(0.3, 0.9)).unwrap();
                 assert!(mirror.delta && mirror.wi == reflect(wo) && mirror.weight.to_rgb() == fresnel);
-                assert!(gold(0.02).bsdf().is_delta() && gold(0.02).bsdf().eval_pdf(wo, mirror.wi).1 == 0.0);
+                assert!(
+                    gold(0.02).bsdf(&NoTextures).is_delta()
+                        && gold(0.02).bsdf(&NoTextures).eval_pdf(wo, mirror.wi).1 == 0.0
+                );
                 for (a, f) in albedo(&gold(0.06), wo).into_iter().zip(fresnel) {
                     assert!((a - f64::from(f)).abs() < 1e-3, "{a}, not {f}, at {degrees} degrees");
                 }
@@ -378,7 +387,7 @@ mod tests {
             let mut mean = Vec2::ZERO;
             for i in 0..4000 {
                 let u = Independent::new(3, glam::UVec2::ZERO, i).get_2d();
-                if let Some(s) = once(metal.clone()).bsdf().sample(Vec3::Z, 0.0, u) {
+                if let Some(s) = once(metal.clone()).bsdf(&NoTextures).sample(Vec3::Z, 0.0, u) {
                     mean += (s.wi.truncate() * s.wi.truncate()) / 4000.0;
                 }
             }
@@ -391,7 +400,7 @@ mod tests {
         let metal = Conductor { anisotropy: 0.8, rotation: 40.0, ..white(0.3) };
         let at = |degrees: f32| {
             let (sin, cos) = degrees.to_radians().sin_cos();
-            metal.bsdf().eval_pdf(Vec3::Z, Vec3::new(0.3 * cos, 0.3 * sin, 0.91_f32.sqrt())).1
+            metal.bsdf(&NoTextures).eval_pdf(Vec3::Z, Vec3::new(0.3 * cos, 0.3 * sin, 0.91_f32.sqrt())).1
         };
         assert!(at(40.0) > 3.0 * at(130.0) && (at(40.0) / at(220.0) - 1.0).abs() < 1e-5);
     }
@@ -406,7 +415,8 @@ mod tests {
             .map(|i| (f64::from(i) + 0.5) / f64::from(N))
             .map(|cos| {
                 let wi = Vec3::new((1.0 - cos * cos).sqrt() as f32, 0.0, cos as f32);
-                f64::from(once(white(1.0)).bsdf().eval_pdf(Vec3::Z, wi).0.to_rgb()[0]) * std::f64::consts::TAU
+                f64::from(once(white(1.0)).bsdf(&NoTextures).eval_pdf(Vec3::Z, wi).0.to_rgb()[0])
+                    * std::f64::consts::TAU
                     / f64::from(N)
             })
             .sum();
@@ -421,7 +431,7 @@ mod tests {
         for roughness in [0.0, 0.0224, 0.05, 0.5, 1.0] {
             for metal in [gold(roughness), once(gold(roughness)), white(roughness)] {
                 let most = if metal.compensation { 16.0 } else { 1.0 };
-                let metal = metal.bsdf();
+                let metal = metal.bsdf(&NoTextures);
                 for z in [0.0_f32, -0.0, 1e-42, 1e-30, 1e-20, -1e-10, 1e-5] {
                     let wo = Vec3::new(1.0, 0.0, z);
                     for u in
@@ -460,11 +470,14 @@ mod tests {
         assert!(problems(index(1.0, 1.0)).is_empty());
         assert_eq!(problems(Conductor { k: None, ..index(1.0, 1.0) }), ["eta"]);
         assert_eq!(problems(Conductor { eta: None, ..index(1.0, 1.0) }), ["k"]);
-        assert_eq!(problems(Conductor { reflectance: Some(Rgb::grey(0.5)), ..index(1.0, 1.0) }), ["reflectance"]);
+        assert_eq!(
+            problems(Conductor { reflectance: Some(Rgb::grey(0.5).into()), ..index(1.0, 1.0) }),
+            ["reflectance"]
+        );
         assert_eq!(problems(Conductor { metal: Some(NamedMetal::Iron), ..index(1.0, 1.0) }), ["eta"]);
         assert_eq!(problems(Conductor { metal: Some(NamedMetal::Iron), ..white(0.0) }), ["reflectance"]);
         assert_eq!(problems(index(0.0, 1.0)), ["eta"]);
-        assert_eq!(problems(Conductor { roughness: 1.5, ..index(1.0, f32::NAN) }), ["roughness", "k"]);
-        assert_eq!(problems(Conductor { reflectance: Some(Rgb::grey(1.5)), ..white(0.5) }), ["reflectance"]);
+        assert_eq!(problems(Conductor { roughness: 1.5.into(), ..index(1.0, f32::NAN) }), ["roughness", "k"]);
+        assert_eq!(problems(Conductor { reflectance: Some(Rgb::grey(1.5).into()), ..white(0.5) }), ["reflectance"]);
     }
 }

@@ -32,6 +32,7 @@ use crate::color::Spectrum;
 use crate::material::microfacet::{Ggx, reflect_at, refract_at, upright};
 use crate::material::{BsdfSample, Fresnel};
 use crate::math::{reflect, refract};
+use crate::texture::{Scalar, Textures};
 use crate::validate::Checker;
 
 /// Clear: reflects and refracts.
@@ -45,24 +46,24 @@ pub struct Dielectric {
     /// 0 is polished, 1 completely rough; alpha is its square. It is polished, too, where it would blur by less than
     /// 0.03 degrees: for glass below 0.04.
     #[schemars(range(min = 0.0, max = 1.0))]
-    pub roughness: f32,
+    pub roughness: Scalar,
 }
 
 impl Default for Dielectric {
     fn default() -> Self {
-        Self { eta: 1.5, roughness: 0.0 }
+        Self { eta: 1.5, roughness: 0.0.into() }
     }
 }
 
 impl Dielectric {
     pub(crate) fn check(&self, c: &mut Checker) {
         c.in_range("eta", self.eta, 0.01, 100.0);
-        c.in_range("roughness", self.roughness, 0.0, 1.0);
+        self.roughness.check_range("roughness", 0.0, 1.0, c);
     }
 
     #[inline]
-    pub(crate) fn bsdf(&self) -> DielectricBsdf {
-        DielectricBsdf { eta: self.eta, ggx: Ggx::from_roughness(self.roughness) }
+    pub(crate) fn bsdf(&self, textures: &impl Textures) -> DielectricBsdf {
+        DielectricBsdf { eta: self.eta, ggx: Ggx::from_roughness(self.roughness.at(textures, 0.0, 1.0)) }
     }
 }
 
@@ -153,9 +154,10 @@ mod tests {
     use super::*;
     use crate::material::Bsdf;
     use crate::testing::{Reciprocal, check_lobe, chi2_counts};
+    use crate::texture::NoTextures;
 
     fn glass(eta: f32, roughness: f32) -> DielectricBsdf {
-        Dielectric { eta, roughness }.bsdf()
+        Dielectric { eta, roughness: roughness.into() }.bsdf(&NoTextures)
     }
 
     fn direction(degrees: f32) -> Vec3 {
@@ -167,7 +169,7 @@ mod tests {
     #[test]
     fn chooses_by_fresnel() {
         const N: u32 = 100_000;
-        let glass = Dielectric::default().bsdf();
+        let glass = Dielectric::default().bsdf(&NoTextures);
         for degrees in [0.0_f32, 30.0, 60.0, 85.0] {
             for side in [1.0, -1.0] {
                 let wo = direction(degrees) * Vec3::new(1.0, 1.0, side);

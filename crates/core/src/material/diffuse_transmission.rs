@@ -20,6 +20,7 @@ use serde::{Deserialize, Serialize};
 use crate::color::{Rgb, Spectrum};
 use crate::material::BsdfSample;
 use crate::sampling::cosine_hemisphere;
+use crate::texture::{Color, Textures};
 use crate::validate::Checker;
 
 /// Thin and matte: scatters light evenly to its own side and to the other.
@@ -27,14 +28,15 @@ use crate::validate::Checker;
 #[serde(deny_unknown_fields, default)]
 pub struct DiffuseTransmission {
     /// Share of the light that is scattered back, 0..1 in each channel.
-    pub reflectance: Rgb,
-    /// Share of the light that comes through, 0..1 in each channel; with `reflectance` at most 1.
-    pub transmittance: Rgb,
+    pub reflectance: Color,
+    /// Share of the light that comes through, 0..1 in each channel; with `reflectance` at most 1, whatever
+    /// textures say.
+    pub transmittance: Color,
 }
 
 impl Default for DiffuseTransmission {
     fn default() -> Self {
-        Self { reflectance: Rgb::grey(0.25), transmittance: Rgb::grey(0.25) }
+        Self { reflectance: Rgb::grey(0.25).into(), transmittance: Rgb::grey(0.25).into() }
     }
 }
 
@@ -42,9 +44,12 @@ impl DiffuseTransmission {
     pub(crate) fn check(&self, c: &mut Checker) {
         /// What shares such as 0.9 and 0.1 may be off.
         const ROUNDING: f32 = 1e-6;
-        c.albedo("reflectance", self.reflectance);
-        c.albedo("transmittance", self.transmittance);
-        let sums = self.reflectance.0.into_iter().zip(self.transmittance.0).map(|(r, t)| r + t);
+        self.reflectance.check_share("reflectance", c);
+        self.transmittance.check_share("transmittance", c);
+        let (Some(reflectance), Some(transmittance)) = (self.reflectance.rgb(), self.transmittance.rgb()) else {
+            return;
+        };
+        let sums = reflectance.0.into_iter().zip(transmittance.0).map(|(r, t)| r + t);
         if let Some(sum) = sums.into_iter().find(|sum| *sum > 1.0 + ROUNDING) {
             let message = format!("`reflectance` and `transmittance` add up to {sum}");
             let hint = "a sheet cannot scatter more light than it gets: keep their sum at most 1 in each channel";
@@ -53,8 +58,14 @@ impl DiffuseTransmission {
     }
 
     #[inline]
-    pub(crate) fn bsdf(&self) -> DiffuseTransmissionBsdf {
-        DiffuseTransmissionBsdf { reflectance: self.reflectance.into(), transmittance: self.transmittance.into() }
+    pub(crate) fn bsdf(&self, textures: &impl Textures) -> DiffuseTransmissionBsdf {
+        let reflectance = self.reflectance.share_at(textures);
+        let mut transmittance = self.transmittance.share_at(textures).to_rgb();
+        // Textures may say more than there is: then less comes through.
+        for (through, back) in transmittance.iter_mut().zip(reflectance.to_rgb()) {
+            *through = through.min(1.0 - back);
+        }
+        DiffuseTransmissionBsdf { reflectance, transmittance: Rgb(transmittance).into() }
     }
 }
 
@@ -104,10 +115,11 @@ mod tests {
     use super::*;
     use crate::material::Bsdf;
     use crate::testing::{Reciprocal, check_lobe};
+    use crate::texture::NoTextures;
     use crate::validate::Problem;
 
     fn sheet(reflectance: [f32; 3], transmittance: [f32; 3]) -> DiffuseTransmission {
-        DiffuseTransmission { reflectance: Rgb(reflectance), transmittance: Rgb(transmittance) }
+        DiffuseTransmission { reflectance: Rgb(reflectance).into(), transmittance: Rgb(transmittance).into() }
     }
 
     #[test]
@@ -118,7 +130,7 @@ mod tests {
             sheet([0.7; 3], [0.0; 3]),
             sheet([0.0; 3], [1.0; 3]),
         ] {
-            check_lobe(&Bsdf::DiffuseTransmission(sheet.bsdf()), Reciprocal::Yes).unwrap();
+            check_lobe(&Bsdf::DiffuseTransmission(sheet.bsdf(&NoTextures)), Reciprocal::Yes).unwrap();
         }
     }
 
@@ -127,7 +139,7 @@ mod tests {
     fn shares_are_as_described() {
         const N: u32 = 20_000;
         let (r, t) = ([0.5, 0.1, 0.0], [0.2, 0.6, 0.3]);
-        let bsdf = sheet(r, t).bsdf();
+        let bsdf = sheet(r, t).bsdf(&NoTextures);
         for wo in [Vec3::new(0.6, 0.0, 0.8), Vec3::new(0.0, 0.8, -0.6)] {
             let mut sums = [[0.0; 3]; 2];
             for i in 0..N {
@@ -144,10 +156,10 @@ mod tests {
 
     #[test]
     fn black_and_grazing_are_finite() {
-        let black = sheet([0.0; 3], [0.0; 3]).bsdf();
+        let black = sheet([0.0; 3], [0.0; 3]).bsdf(&NoTextures);
         assert!(black.sample(Vec3::Z, 0.0, Vec2::splat(0.3)).is_none());
         assert_eq!(black.eval_pdf(Vec3::Z, Vec3::Z), (Spectrum::BLACK, 0.0));
-        let faint = sheet([1e-38, 0.0, 0.0], [0.0, 1e-30, 0.0]).bsdf();
+        let faint = sheet([1e-38, 0.0, 0.0], [0.0, 1e-30, 0.0]).bsdf(&NoTextures);
         for (z, uc) in [(0.0, 0.0), (-0.0, 0.9), (1e-42, 0.5), (1.0, 0.999), (-1e-30, 0.0)] {
             for bsdf in [black, faint] {
                 let wo = Vec3::new((1.0_f32 - z * z).sqrt(), 0.0, z);

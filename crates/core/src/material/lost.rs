@@ -218,9 +218,10 @@ mod tests {
     use super::*;
     use crate::color::Rgb;
     use crate::material::Conductor;
+    use crate::texture::NoTextures;
 
     fn white(roughness: f32) -> Conductor {
-        Conductor { reflectance: Some(Rgb::grey(1.0)), roughness, ..Conductor::default() }
+        Conductor { reflectance: Some(Rgb::grey(1.0).into()), roughness: roughness.into(), ..Conductor::default() }
     }
 
     /// Without what goes from facet to facet.
@@ -232,7 +233,7 @@ mod tests {
     /// spaced directions for the rest.
     fn directional_albedo(metal: &Conductor, wo: Vec3) -> f64 {
         const N: u16 = 64;
-        let once = once(metal.clone()).bsdf();
+        let once = once(metal.clone()).bsdf(&NoTextures);
         let midpoint = |i: u16| (f32::from(i) + 0.5) / f32::from(N);
         let mut sum = 0.0;
         for (i, j) in (0..N).flat_map(|i| (0..N).map(move |j| (i, j))) {
@@ -242,7 +243,7 @@ mod tests {
             let cos = rest * rest;
             let (sin, radius) = ((1.0 - cos * cos).sqrt(), std::f32::consts::TAU * turn);
             let wi = Vec3::new(sin * radius.cos(), sin * radius.sin(), cos);
-            let [all, first] = [metal.bsdf(), once].map(|lobe| lobe.eval_pdf(wo, wi).0.to_rgb()[0]);
+            let [all, first] = [metal.bsdf(&NoTextures), once].map(|lobe| lobe.eval_pdf(wo, wi).0.to_rgb()[0]);
             sum += f64::from(weight * 2.0 * rest + (all - first) * std::f32::consts::TAU * 2.0 * rest);
         }
         sum / f64::from(N).powi(2)

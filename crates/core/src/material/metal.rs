@@ -28,7 +28,7 @@ use crate::color::{Rgb, Spectrum};
 use crate::material::BsdfSample;
 use crate::math::reflect;
 use crate::sampling::uniform_ball;
-use crate::texture::{Color, Textures};
+use crate::texture::{Color, Scalar, Textures};
 use crate::validate::Checker;
 
 /// Mirror (roughness 0) to completely rough metal (roughness 1), which still keeps the mirror's directionality.
@@ -39,24 +39,24 @@ pub struct Metal {
     pub albedo: Color,
     /// Radius of the ball around the unit mirror direction, 0..1. Below 1e-4 it is a perfect mirror.
     #[schemars(range(min = 0.0, max = 1.0))]
-    pub roughness: f32,
+    pub roughness: Scalar,
 }
 
 impl Default for Metal {
     fn default() -> Self {
-        Self { albedo: Rgb::grey(0.8).into(), roughness: 0.0 }
+        Self { albedo: Rgb::grey(0.8).into(), roughness: 0.0.into() }
     }
 }
 
 impl Metal {
     pub(crate) fn check(&self, c: &mut Checker) {
         self.albedo.check_share("albedo", c);
-        c.in_range("roughness", self.roughness, 0.0, 1.0);
+        self.roughness.check_range("roughness", 0.0, 1.0, c);
     }
 
     #[inline]
     pub(crate) fn bsdf(&self, textures: &impl Textures) -> MetalBsdf {
-        MetalBsdf { albedo: self.albedo.share_at(textures), roughness: self.roughness }
+        MetalBsdf { albedo: self.albedo.share_at(textures), roughness: self.roughness.at(textures, 0.0, 1.0) }
     }
 }
 
@@ -128,7 +128,7 @@ mod tests {
     #[test]
     fn lobe() {
         for roughness in [0.1, 0.33, 0.66, 1.0] {
-            let metal = Metal { albedo: Rgb([0.9, 0.6, 0.2]).into(), roughness };
+            let metal = Metal { albedo: Rgb([0.9, 0.6, 0.2]).into(), roughness: roughness.into() };
             check_lobe(&Bsdf::Metal(metal.bsdf(&NoTextures)), Reciprocal::No).unwrap();
         }
     }

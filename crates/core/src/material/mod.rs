@@ -24,6 +24,7 @@ use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 use crate::color::Spectrum;
+use crate::names::Named;
 use crate::texture::{Color, Textures};
 use crate::validate::Checker;
 
@@ -92,28 +93,46 @@ impl MaterialDesc {
         match self {
             Self::Lambertian(m) => Bsdf::Lambertian(m.bsdf(textures)),
             Self::OrenNayar(m) => Bsdf::OrenNayar(m.bsdf(textures)),
-            Self::DiffuseTransmission(m) => Bsdf::DiffuseTransmission(m.bsdf()),
-            Self::Sheen(m) => Bsdf::Sheen(m.bsdf()),
+            Self::DiffuseTransmission(m) => Bsdf::DiffuseTransmission(m.bsdf(textures)),
+            Self::Sheen(m) => Bsdf::Sheen(m.bsdf(textures)),
             Self::Metal(m) => Bsdf::Metal(m.bsdf(textures)),
-            Self::Conductor(m) => Bsdf::Conductor(m.bsdf()),
-            Self::Dielectric(m) => Bsdf::Dielectric(m.bsdf()),
-            Self::ThinDielectric(m) => Bsdf::ThinDielectric(m.bsdf()),
+            Self::Conductor(m) => Bsdf::Conductor(m.bsdf(textures)),
+            Self::Dielectric(m) => Bsdf::Dielectric(m.bsdf(textures)),
+            Self::ThinDielectric(m) => Bsdf::ThinDielectric(m.bsdf(textures)),
             Self::Emissive(m) => Bsdf::Lambertian(m.bsdf(textures)),
         }
     }
 
-    /// The key of its kind, and those of its colours that may be textures, by their keys.
-    pub(crate) fn colors(&mut self) -> (&'static str, Vec<(&'static str, &mut Color)>) {
+    /// The key of its kind, and the textures that it takes, by their keys.
+    pub(crate) fn textures(&mut self) -> (&'static str, Named<'_>) {
         match self {
-            Self::Lambertian(m) => ("lambertian", vec![("albedo", &mut m.albedo)]),
-            Self::OrenNayar(m) => ("oren-nayar", vec![("albedo", &mut m.albedo)]),
-            Self::DiffuseTransmission(_) => ("diffuse-transmission", vec![]),
-            Self::Sheen(_) => ("sheen", vec![]),
-            Self::Metal(m) => ("metal", vec![("albedo", &mut m.albedo)]),
-            Self::Conductor(_) => ("conductor", vec![]),
-            Self::Dielectric(_) => ("dielectric", vec![]),
-            Self::ThinDielectric(_) => ("thin-dielectric", vec![]),
-            Self::Emissive(m) => ("emissive", vec![("albedo", &mut m.albedo)]),
+            Self::Lambertian(m) => ("lambertian", vec![("albedo", m.albedo.texture())]),
+            Self::OrenNayar(m) => {
+                ("oren-nayar", vec![("albedo", m.albedo.texture()), ("roughness", m.roughness.texture())])
+            }
+            Self::DiffuseTransmission(m) => (
+                "diffuse-transmission",
+                vec![("reflectance", m.reflectance.texture()), ("transmittance", m.transmittance.texture())],
+            ),
+            Self::Sheen(m) => (
+                "sheen",
+                vec![
+                    ("color", m.color.texture()),
+                    ("roughness", m.roughness.texture()),
+                    ("albedo", m.albedo.texture()),
+                ],
+            ),
+            Self::Metal(m) => ("metal", vec![("albedo", m.albedo.texture()), ("roughness", m.roughness.texture())]),
+            Self::Conductor(m) => (
+                "conductor",
+                vec![
+                    ("reflectance", m.reflectance.as_mut().and_then(Color::texture)),
+                    ("roughness", m.roughness.texture()),
+                ],
+            ),
+            Self::Dielectric(m) => ("dielectric", vec![("roughness", m.roughness.texture())]),
+            Self::ThinDielectric(m) => ("thin-dielectric", vec![("color", m.color.texture())]),
+            Self::Emissive(m) => ("emissive", vec![("albedo", m.albedo.texture())]),
         }
     }
 

@@ -30,7 +30,7 @@ use crate::color::{Rgb, Spectrum};
 use crate::material::BsdfSample;
 use crate::material::microfacet::upright;
 use crate::sampling::uniform_disk;
-use crate::texture::{Color, Textures};
+use crate::texture::{Color, Scalar, Textures};
 use crate::validate::Checker;
 
 /// Matte and rough: lambertian grooves.
@@ -41,24 +41,27 @@ pub struct OrenNayar {
     pub albedo: Color,
     /// 0 is lambertian, 1 completely rough.
     #[schemars(range(min = 0.0, max = 1.0))]
-    pub roughness: f32,
+    pub roughness: Scalar,
 }
 
 impl Default for OrenNayar {
     fn default() -> Self {
-        Self { albedo: Rgb::grey(0.5).into(), roughness: 0.5 }
+        Self { albedo: Rgb::grey(0.5).into(), roughness: 0.5.into() }
     }
 }
 
 impl OrenNayar {
     pub(crate) fn check(&self, c: &mut Checker) {
         self.albedo.check_share("albedo", c);
-        c.in_range("roughness", self.roughness, 0.0, 1.0);
+        self.roughness.check_range("roughness", 0.0, 1.0, c);
     }
 
     #[inline]
     pub(crate) fn bsdf(&self, textures: &impl Textures) -> OrenNayarBsdf {
-        OrenNayarBsdf { albedo: Rgb(self.albedo.share_at(textures).to_rgb()), roughness: self.roughness }
+        OrenNayarBsdf {
+            albedo: Rgb(self.albedo.share_at(textures).to_rgb()),
+            roughness: self.roughness.at(textures, 0.0, 1.0),
+        }
     }
 }
 
@@ -220,7 +223,7 @@ mod tests {
     const GREY: Rgb = Rgb([0.9, 0.5, 0.1]);
 
     fn rough(albedo: Rgb, roughness: f32) -> OrenNayarBsdf {
-        OrenNayar { albedo: albedo.into(), roughness }.bsdf(&NoTextures)
+        OrenNayar { albedo: albedo.into(), roughness: roughness.into() }.bsdf(&NoTextures)
     }
 
     fn direction(cos: f64, turn: f64) -> Vec3 {

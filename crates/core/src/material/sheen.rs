@@ -31,6 +31,7 @@ use crate::material::BsdfSample;
 use crate::material::charlie::Charlie;
 use crate::material::microfacet::upright;
 use crate::sampling::{cosine_hemisphere, uniform_sphere};
+use crate::texture::{Color, Scalar, Textures};
 use crate::validate::Checker;
 
 /// Cloth: upright fibres over a matte base.
@@ -38,30 +39,31 @@ use crate::validate::Checker;
 #[serde(deny_unknown_fields, default)]
 pub struct Sheen {
     /// Share of the light that fibres do not absorb, 0..1 in each channel; at 0 there are none.
-    pub color: Rgb,
+    pub color: Color,
     /// 0 is upright, 1 tangled; alpha is its square. Below 0.3 it is as at 0.3.
     #[schemars(range(min = 0.0, max = 1.0))]
-    pub roughness: f32,
+    pub roughness: Scalar,
     /// Share of the light that the base does not absorb, 0..1 in each channel.
-    pub albedo: Rgb,
+    pub albedo: Color,
 }
 
 impl Default for Sheen {
     fn default() -> Self {
-        Self { color: Rgb::grey(0.5), roughness: 0.5, albedo: Rgb::grey(0.2) }
+        Self { color: Rgb::grey(0.5).into(), roughness: 0.5.into(), albedo: Rgb::grey(0.2).into() }
     }
 }
 
 impl Sheen {
     pub(crate) fn check(&self, c: &mut Checker) {
-        c.albedo("color", self.color);
-        c.in_range("roughness", self.roughness, 0.0, 1.0);
-        c.albedo("albedo", self.albedo);
+        self.color.check_share("color", c);
+        self.roughness.check_range("roughness", 0.0, 1.0, c);
+        self.albedo.check_share("albedo", c);
     }
 
     #[inline]
-    pub(crate) fn bsdf(&self) -> SheenBsdf {
-        SheenBsdf { color: self.color, roughness: self.roughness, albedo: self.albedo }
+    pub(crate) fn bsdf(&self, textures: &impl Textures) -> SheenBsdf {
+        let [color, albedo] = [&self.color, &self.albedo].map(|color| Rgb(color.share_at(textures).to_rgb()));
+        SheenBsdf { color, roughness: self.roughness.at(textures, 0.0, 1.0), albedo }
     }
 }
 
@@ -133,7 +135,7 @@ mod tests {
     use crate::texture::NoTextures;
 
     fn cloth(color: [f32; 3], roughness: f32, albedo: [f32; 3]) -> SheenBsdf {
-        Sheen { color: Rgb(color), roughness, albedo: Rgb(albedo) }.bsdf()
+        Sheen { color: Rgb(color).into(), roughness: roughness.into(), albedo: Rgb(albedo).into() }.bsdf(&NoTextures)
     }
 
     /// The share of light at an angle that is scattered, by midpoints in √cos θᵢ and the azimuth.

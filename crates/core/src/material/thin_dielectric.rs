@@ -20,6 +20,7 @@ use serde::{Deserialize, Serialize};
 use crate::color::{Rgb, Spectrum};
 use crate::material::{BsdfSample, Fresnel};
 use crate::math::reflect;
+use crate::texture::{Color, Textures};
 use crate::validate::Checker;
 
 /// Clear and thin: reflects, and lets through what it does not.
@@ -30,24 +31,24 @@ pub struct ThinDielectric {
     #[schemars(range(min = 0.01, max = 100.0))]
     pub eta: f32,
     /// Share that is left of the light that goes through, 0..1 in each channel, at any angle.
-    pub color: Rgb,
+    pub color: Color,
 }
 
 impl Default for ThinDielectric {
     fn default() -> Self {
-        Self { eta: 1.5, color: Rgb::grey(1.0) }
+        Self { eta: 1.5, color: Rgb::grey(1.0).into() }
     }
 }
 
 impl ThinDielectric {
     pub(crate) fn check(&self, c: &mut Checker) {
         c.in_range("eta", self.eta, 0.01, 100.0);
-        c.albedo("color", self.color);
+        self.color.check_share("color", c);
     }
 
     #[inline]
-    pub(crate) fn bsdf(&self) -> ThinDielectricBsdf {
-        ThinDielectricBsdf { eta: self.eta, color: self.color }
+    pub(crate) fn bsdf(&self, textures: &impl Textures) -> ThinDielectricBsdf {
+        ThinDielectricBsdf { eta: self.eta, color: Rgb(self.color.share_at(textures).to_rgb()) }
     }
 }
 
@@ -83,10 +84,11 @@ mod tests {
     use crate::material::Bsdf;
     use crate::sampler::Independent;
     use crate::testing::chi2_counts;
+    use crate::texture::NoTextures;
     use glam::Vec2;
 
     fn pane(eta: f32, color: [f32; 3]) -> Bsdf {
-        Bsdf::ThinDielectric(ThinDielectric { eta, color: Rgb(color) }.bsdf())
+        Bsdf::ThinDielectric(ThinDielectric { eta, color: Rgb(color).into() }.bsdf(&NoTextures))
     }
 
     fn direction(degrees: f32, side: f32) -> Vec3 {

@@ -7,6 +7,7 @@ use serde::de::{self, Deserialize, Deserializer, IntoDeserializer, SeqAccess, Vi
 use serde::{Serialize, Serializer};
 
 use crate::color::{Rgb, Spectrum};
+use crate::names::Name;
 use crate::texture::Textures;
 use crate::validate::Checker;
 
@@ -16,21 +17,7 @@ pub enum Color {
     /// The same everywhere.
     Rgb(Rgb),
     /// That of a texture.
-    Texture(TextureName),
-}
-
-/// The name of a texture, and, in a scene that is built, its number.
-#[derive(Clone, Debug, PartialEq)]
-pub struct TextureName {
-    pub(crate) name: String,
-    pub(crate) index: u32,
-}
-
-impl TextureName {
-    /// A name; names of textures do not begin with `#`.
-    pub fn new(name: &str) -> Self {
-        Self { name: name.to_owned(), index: u32::MAX }
-    }
+    Texture(Name),
 }
 
 impl Color {
@@ -39,7 +26,7 @@ impl Color {
     pub(crate) fn at(&self, textures: &impl Textures) -> Spectrum {
         match self {
             Self::Rgb(rgb) => (*rgb).into(),
-            Self::Texture(name) => textures.color(name.index),
+            Self::Texture(name) => textures.color(name.index()),
         }
     }
 
@@ -48,7 +35,7 @@ impl Color {
     pub(crate) fn share_at(&self, textures: &impl Textures) -> Spectrum {
         match self {
             Self::Rgb(rgb) => (*rgb).into(),
-            Self::Texture(name) => textures.color(name.index).clamp(0.0, 1.0),
+            Self::Texture(name) => textures.color(name.index()).clamp(0.0, 1.0),
         }
     }
 
@@ -57,6 +44,14 @@ impl Color {
         match self {
             Self::Rgb(rgb) => Some(*rgb),
             Self::Texture(_) => None,
+        }
+    }
+
+    /// The texture, if it is one.
+    pub(crate) fn texture(&mut self) -> Option<&mut Name> {
+        match self {
+            Self::Rgb(_) => None,
+            Self::Texture(name) => Some(name),
         }
     }
 
@@ -85,7 +80,7 @@ impl Serialize for Color {
     fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
         match self {
             Self::Rgb(rgb) => rgb.serialize(serializer),
-            Self::Texture(name) => name.name.serialize(serializer),
+            Self::Texture(name) => name.serialize(serializer),
         }
     }
 }
@@ -116,7 +111,7 @@ impl<'de> Deserialize<'de> for Color {
                 if text.starts_with('#') {
                     return Rgb::deserialize(text.into_deserializer()).map(Color::Rgb);
                 }
-                Ok(Color::Texture(TextureName::new(text)))
+                Ok(Color::Texture(Name::new(text)))
             }
 
             fn visit_seq<A: SeqAccess<'de>>(self, seq: A) -> Result<Color, A::Error> {

@@ -19,6 +19,7 @@ mod mapping;
 mod marble;
 mod noise;
 mod perlin;
+mod scalar;
 mod wood;
 
 use std::collections::BTreeMap;
@@ -28,14 +29,16 @@ use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 use crate::color::Spectrum;
+use crate::names::{Named, Nesting, Numbers};
 use crate::validate::Checker as Check;
 
 pub use checker::Checker;
-pub use color::{Color, TextureName};
+pub use color::Color;
 pub use image::ImageTexture;
 pub use mapping::{Mapping, Space};
 pub use marble::Marble;
 pub use noise::Noise;
+pub use scalar::Scalar;
 pub use wood::Wood;
 
 /// A texture as a scene states it: `[texture.NAME.KIND]`.
@@ -117,131 +120,52 @@ impl TextureDesc {
         }
     }
 
-    /// The key of its kind, and the colours that it is made of, by their keys.
-    fn colors(&mut self) -> (&'static str, Vec<(&'static str, &mut Color)>) {
+    /// The key of its kind, and the textures that it is made of, by their keys.
+    fn textures(&mut self) -> (&'static str, Named<'_>) {
         match self {
             Self::Image(_) => ("image", vec![]),
-            Self::Checker(t) => ("checker", vec![("even", &mut t.even), ("odd", &mut t.odd)]),
-            Self::Noise(t) => ("noise", vec![("dark", &mut t.dark), ("light", &mut t.light)]),
-            Self::Marble(t) => ("marble", vec![("dark", &mut t.dark), ("light", &mut t.light)]),
-            Self::Wood(t) => ("wood", vec![("dark", &mut t.dark), ("light", &mut t.light)]),
+            Self::Checker(t) => ("checker", vec![("even", t.even.texture()), ("odd", t.odd.texture())]),
+            Self::Noise(t) => ("noise", vec![("dark", t.dark.texture()), ("light", t.light.texture())]),
+            Self::Marble(t) => ("marble", vec![("dark", t.dark.texture()), ("light", t.light.texture())]),
+            Self::Wood(t) => ("wood", vec![("dark", t.dark.texture()), ("light", t.light.texture())]),
         }
     }
 }
 
-/// The numbers of textures, by their names.
-#[derive(Clone, Debug)]
-pub(crate) struct Numbers<'d>(BTreeMap<&'d str, u32>);
-
-impl<'d> Numbers<'d> {
-    pub(crate) fn new(textures: &'d BTreeMap<String, TextureDesc>) -> Self {
-        Self(textures.keys().map(String::as_str).zip(0..).collect())
-    }
-
-    /// Notes in colours which textures they name.
-    pub(crate) fn resolve<'c>(&self, colors: impl IntoIterator<Item = (&'static str, &'c mut Color)>) {
-        for (_, color) in colors {
-            if let Color::Texture(name) = color {
-                name.index = self.0.get(name.name.as_str()).copied().unwrap_or(u32::MAX);
-            }
-        }
-    }
+/// The names of textures.
+pub(crate) fn numbers(textures: &BTreeMap<String, TextureDesc>) -> Numbers<'_> {
+    Numbers::new(textures.keys().map(String::as_str))
 }
 
 /// Textures by their numbers, that name each other by these.
 pub(crate) fn compile(textures: &BTreeMap<String, TextureDesc>) -> Vec<TextureDesc> {
-    let numbers = Numbers::new(textures);
+    let numbers = numbers(textures);
     let mut compiled: Vec<_> = textures.values().cloned().collect();
-    compiled.iter_mut().for_each(|texture| numbers.resolve(texture.colors().1));
+    compiled.iter_mut().for_each(|texture| numbers.resolve(texture.textures().1));
     compiled
 }
 
-/// Notes names that do not exist, and textures that are made of themselves.
-pub(crate) fn check(textures: &BTreeMap<String, TextureDesc>, c: &mut Check) {
-    let mut nesting = Nesting::new(textures);
+/// How textures are made of one another.
+pub(crate) fn nesting(textures: &BTreeMap<String, TextureDesc>) -> Nesting<'_> {
+    let words = ["texture", "textures", "add one as [texture.NAME.KIND], or write a value"];
+    let parts = |texture: &TextureDesc| {
+        let mut texture = texture.clone();
+        let names = texture.textures().1.into_iter().filter_map(|(_, name)| name);
+        names.map(|name| name.name().to_owned()).collect()
+    };
+    Nesting::new(words, textures.iter().map(|(name, texture)| (name.as_str(), parts(texture))))
+}
+
+/// Notes what is wrong with textures, names that do not exist, and textures that are made of themselves.
+pub(crate) fn check(textures: &BTreeMap<String, TextureDesc>, nesting: &mut Nesting<'_>, c: &mut Check) {
     for (name, texture) in textures {
         c.within(name, |c| {
             texture.check(c);
-            check_names(texture.clone().colors(), textures, c);
-            nesting.check(name, texture.clone().colors().0, c);
+            let mut texture = texture.clone();
+            let (kind, names) = texture.textures();
+            nesting.check_names(kind, names, c);
+            nesting.check(name, kind, c);
         });
-    }
-}
-
-/// Notes the names of textures that do not exist, in colours below the key of a kind.
-pub(crate) fn check_names(
-    (kind, colors): (&str, Vec<(&str, &mut Color)>),
-    textures: &BTreeMap<String, TextureDesc>,
-    c: &mut Check,
-) {
-    c.within(kind, |c| colors.into_iter().for_each(|(key, color)| check_name(key, color, textures, c)));
-}
-
-/// Notes a name that no texture has.
-fn check_name(key: &str, color: &Color, textures: &BTreeMap<String, TextureDesc>, c: &mut Check) {
-    let Color::Texture(TextureName { name, .. }) = color else { return };
-    if textures.contains_key(name) {
-        return;
-    }
-    let words = ["texture", "textures", "add one as [texture.NAME.KIND], or write a colour"];
-    c.no_such(key, words, name, textures.keys());
-}
-
-/// How deep textures are made of one another.
-struct Nesting<'d> {
-    /// What each texture is made of.
-    parts: BTreeMap<&'d str, Vec<&'d str>>,
-    /// Of those that are known not to lead too deep or back to themselves.
-    depth: BTreeMap<&'d str, usize>,
-}
-
-impl<'d> Nesting<'d> {
-    /// The most textures within each other.
-    const MOST: usize = 16;
-
-    fn new(textures: &'d BTreeMap<String, TextureDesc>) -> Self {
-        let named = |color: &Color| match color {
-            Color::Texture(TextureName { name, .. }) => textures.get_key_value(name).map(|(name, _)| name.as_str()),
-            Color::Rgb(_) => None,
-        };
-        let parts =
-            |texture: &TextureDesc| texture.clone().colors().1.iter().filter_map(|(_, color)| named(color)).collect();
-        Self {
-            parts: textures.iter().map(|(name, texture)| (name.as_str(), parts(texture))).collect(),
-            depth: BTreeMap::new(),
-        }
-    }
-
-    /// Notes that a texture, of a kind, is made of itself, or of too many within each other.
-    fn check(&mut self, name: &'d str, kind: &str, c: &mut Check) {
-        let Err(way) = self.depth(&mut Vec::new(), name) else { return };
-        let Some((last, before)) = way.split_last() else { return };
-        if before.first() == Some(last) {
-            let message = format!("the texture is made of itself: {}", way.join(" > "));
-            c.problem(kind, message, Some("give one of them a colour instead".to_owned()));
-        } else if !before.contains(last) {
-            let hint = format!("at most {} are allowed", Self::MOST);
-            c.problem(kind, "the texture is made of too many textures within each other", Some(hint));
-        }
-    }
-
-    /// The depth of a texture, itself counted, or the way to it from where one has begun, if that is too long or comes back.
-    fn depth(&mut self, way: &mut Vec<&'d str>, name: &'d str) -> Result<usize, Vec<&'d str>> {
-        if let Some(&depth) = self.depth.get(name) {
-            return if way.len() + depth > Self::MOST { Err([&way[..], &[name]].concat()) } else { Ok(depth) };
-        }
-        let comes_back = way.contains(&name);
-        way.push(name);
-        if comes_back || way.len() > Self::MOST {
-            return Err(way.clone());
-        }
-        let mut below = 0;
-        for part in self.parts.get(name).cloned().unwrap_or_default() {
-            below = below.max(self.depth(way, part)?);
-        }
-        way.pop();
-        self.depth.insert(name, below + 1);
-        Ok(below + 1)
     }
 }
 
@@ -249,19 +173,20 @@ impl<'d> Nesting<'d> {
 mod tests {
     use super::*;
     use crate::color::Rgb;
+    use crate::names::Name;
 
     fn checker(even: Color, odd: Color) -> TextureDesc {
         TextureDesc::Checker(Checker { even, odd, ..Checker::default() })
     }
 
     fn named(name: &str) -> Color {
-        Color::Texture(TextureName::new(name))
+        Color::Texture(Name::new(name))
     }
 
     fn problems(textures: &[(&str, TextureDesc)]) -> Vec<String> {
         let textures = textures.iter().map(|(name, texture)| ((*name).to_owned(), texture.clone())).collect();
         let mut c = Check::default();
-        check(&textures, &mut c);
+        check(&textures, &mut nesting(&textures), &mut c);
         c.into_problems().into_iter().map(|p| format!("{}: {}", p.path.join("."), p.message)).collect()
     }
 
@@ -289,7 +214,7 @@ mod tests {
             };
             let textures: BTreeMap<_, _> = (0..n).map(texture).collect();
             let mut c = Check::default();
-            check(&textures, &mut c);
+            check(&textures, &mut nesting(&textures), &mut c);
             c.into_problems().len()
         };
         assert_eq!([chain(1), chain(16), chain(17), chain(20)], [0, 0, 1, 4]);

@@ -28,7 +28,7 @@ fn with(desc: &mut SceneDesc, name: &str, material: MaterialDesc) {
 }
 
 fn metal(roughness: f32) -> MaterialDesc {
-    MaterialDesc::Metal(Metal { albedo: Rgb([0.9, 0.7, 0.4]).into(), roughness })
+    MaterialDesc::Metal(Metal { albedo: Rgb([0.9, 0.7, 0.4]).into(), roughness: roughness.into() })
 }
 
 fn glass() -> MaterialDesc {
@@ -103,11 +103,13 @@ fn lamps() -> SceneDesc {
 fn frosted() -> SceneDesc {
     let mut desc = still_life(EnvironmentDesc::default());
     let frosted = |roughness| MaterialDesc::Dielectric(Dielectric { eta: 1.5, roughness });
-    let copper = Conductor { reflectance: Some(Rgb([0.9, 0.6, 0.4])), roughness: 0.6, ..Conductor::default() };
-    let gold = Conductor { metal: Some(NamedMetal::Gold), roughness: 0.5, anisotropy: 0.6, ..Conductor::default() };
+    let copper =
+        Conductor { reflectance: Some(Rgb([0.9, 0.6, 0.4]).into()), roughness: 0.6.into(), ..Conductor::default() };
+    let gold =
+        Conductor { metal: Some(NamedMetal::Gold), roughness: 0.5.into(), anisotropy: 0.6, ..Conductor::default() };
     for (name, material) in [
         ("lamp", lamp(4.0)),
-        ("frosted", frosted(0.6)),
+        ("frosted", frosted(0.6.into())),
         ("copper", MaterialDesc::Conductor(copper)),
         ("gold", MaterialDesc::Conductor(gold)),
     ] {
@@ -124,10 +126,12 @@ fn frosted() -> SceneDesc {
 /// Plaster, velvet, and a lamp in front of and behind a pane and a sheet of paper.
 fn matte_and_thin() -> SceneDesc {
     let mut desc = still_life(EnvironmentDesc::default());
-    let plaster = OrenNayar { albedo: Rgb([0.9, 0.6, 0.4]).into(), roughness: 1.0 };
-    let velvet = Sheen { color: Rgb([0.9, 0.5, 0.2]), roughness: 0.4, albedo: Rgb([0.2, 0.3, 0.6]) };
-    let paper = DiffuseTransmission { reflectance: Rgb([0.3, 0.5, 0.2]), transmittance: Rgb([0.6, 0.3, 0.5]) };
-    let pane = ThinDielectric { eta: 1.5, color: Rgb([0.5, 0.9, 0.7]) };
+    let plaster = OrenNayar { albedo: Rgb([0.9, 0.6, 0.4]).into(), roughness: 1.0.into() };
+    let velvet =
+        Sheen { color: Rgb([0.9, 0.5, 0.2]).into(), roughness: 0.4.into(), albedo: Rgb([0.2, 0.3, 0.6]).into() };
+    let paper =
+        DiffuseTransmission { reflectance: Rgb([0.3, 0.5, 0.2]).into(), transmittance: Rgb([0.6, 0.3, 0.5]).into() };
+    let pane = ThinDielectric { eta: 1.5, color: Rgb([0.5, 0.9, 0.7]).into() };
     for (name, material) in [
         ("lamp", lamp(4.0)),
         ("plaster", MaterialDesc::OrenNayar(plaster)),

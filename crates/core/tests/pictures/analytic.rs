@@ -98,7 +98,7 @@ fn integral(metal: &MaterialDesc, wo: Vec3) -> f64 {
 fn rough_metal_loses_what_falls_below() {
     for roughness in [0.3_f32, 0.7, 1.0] {
         for height in [0.05_f32, 0.3, 1.0, 4.0] {
-            let metal = MaterialDesc::Metal(Metal { albedo: Rgb::grey(1.0).into(), roughness });
+            let metal = MaterialDesc::Metal(Metal { albedo: Rgb::grey(1.0).into(), roughness: roughness.into() });
             let mut desc = scene(WHITE, metal.clone(), look([1.0, height, 0.0], [0.0; 3], NARROW));
             desc.shape.quad.push(floor(0.0, 100.0));
             let wo = Vec3::new(1.0, 0.0, height).normalize();

@@ -137,8 +137,8 @@ fn places_on_flat_shapes() {
 fn through_glass_and_mirrors() {
     let mut desc = ball();
     desc.environment = WHITE;
-    desc.material.insert("pane".to_owned(), MaterialDesc::Dielectric(Dielectric { eta: 1.0, roughness: 0.0 }));
-    let mirror = Metal { albedo: Rgb([0.9, 0.5, 0.1]).into(), roughness: 0.0 };
+    desc.material.insert("pane".to_owned(), MaterialDesc::Dielectric(Dielectric { eta: 1.0, roughness: 0.0.into() }));
+    let mirror = Metal { albedo: Rgb([0.9, 0.5, 0.1]).into(), roughness: 0.0.into() };
     desc.material.insert("mirror".to_owned(), MaterialDesc::Metal(mirror));
     let (corner, u, v) = ([-9.0, -9.0, 3.0], [18.0, 0.0, 0.0], [0.0, 18.0, 0.0]);
     desc.shape.quad.push(QuadDesc { corner, u, v, material: Some("pane".to_owned()) });
@@ -229,7 +229,7 @@ fn alpha_is_coverage() {
 /// reflects all, which is no hole.
 #[test]
 fn the_background_shows_through_glass_and_not_in_mirrors() {
-    let glass = MaterialDesc::Dielectric(Dielectric { eta: 1.5, roughness: 0.0 });
+    let glass = MaterialDesc::Dielectric(Dielectric { eta: 1.5, roughness: 0.0.into() });
     let mut desc = scene(WHITE, glass, parallel());
     let (lo, hi) = ([-9.0, -9.0, -0.5], [9.0, 9.0, 0.5]);
     desc.shape.mesh.push(box_mesh(lo, hi));
@@ -241,7 +241,8 @@ fn the_background_shows_through_glass_and_not_in_mirrors() {
             assert!((pixel[0] - alpha).abs() < 1e-5, "{way}: what it reflects is white");
         }
     });
-    desc.material.insert("it".to_owned(), MaterialDesc::Metal(Metal { albedo: Rgb::grey(0.8).into(), roughness: 0.0 }));
+    desc.material
+        .insert("it".to_owned(), MaterialDesc::Metal(Metal { albedo: Rgb::grey(0.8).into(), roughness: 0.0.into() }));
     let image = render(&desc, transparent(settings(4, 4, 50))).develop();
     assert!(
         image.alpha().unwrap().iter().all(|a| *a == 1.0) && image.pixels().iter().all(|p| (p[0] - 0.8).abs() < 1e-6)

@@ -18,7 +18,7 @@ use crate::setup::*;
 fn medley() -> SceneDesc {
     let mut desc = scene(EnvironmentDesc::default(), matte(0.6), look([0.5, 1.5, 5.0], [0.0, 0.5, 0.0], 45.0));
     desc.camera.aperture = Some(0.1);
-    let metal = Metal { albedo: Rgb([0.9, 0.7, 0.4]).into(), roughness: 0.2 };
+    let metal = Metal { albedo: Rgb([0.9, 0.7, 0.4]).into(), roughness: 0.2.into() };
     desc.material.insert("metal".to_owned(), MaterialDesc::Metal(metal));
     desc.material
         .insert("glass".to_owned(), MaterialDesc::Dielectric(Dielectric { eta: 1.5, ..Dielectric::default() }));

@@ -6,7 +6,7 @@ use eyebeam_core::material::{Dielectric, DiffuseTransmission, Emissive, Material
 use crate::setup::*;
 
 fn mirror() -> MaterialDesc {
-    MaterialDesc::Metal(Metal { albedo: Rgb::grey(1.0).into(), roughness: 0.0 })
+    MaterialDesc::Metal(Metal { albedo: Rgb::grey(1.0).into(), roughness: 0.0.into() })
 }
 
 #[test]
@@ -22,7 +22,8 @@ fn white_balls_vanish() {
 #[test]
 fn thin_balls_vanish() {
     let half = Rgb::grey(0.5);
-    let sheet = MaterialDesc::DiffuseTransmission(DiffuseTransmission { reflectance: half, transmittance: half });
+    let sheet =
+        MaterialDesc::DiffuseTransmission(DiffuseTransmission { reflectance: half.into(), transmittance: half.into() });
     for (name, material) in [("sheet", sheet), ("pane", MaterialDesc::ThinDielectric(ThinDielectric::default()))] {
         let mut desc = scene(WHITE, material, look([0.0, 0.0, 3.0], [0.0; 3], 60.0));
         desc.shape.sphere.push(sphere([0.0; 3], 1.0));

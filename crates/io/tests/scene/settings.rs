@@ -45,7 +45,7 @@ fn another_kind_replaces() {
     assert!(matches!(desc.environment, eyebeam_core::light::EnvironmentDesc::Constant(_)));
     let desc = read(&["material.gold.metal.albedo=0.5"]).unwrap();
     let MaterialDesc::Metal(metal) = &desc.material["gold"] else { panic!() };
-    assert_eq!(metal.roughness, 0.25, "the same kind keeps the rest");
+    assert_eq!(metal.roughness, 0.25.into(), "the same kind keeps the rest");
 }
 
 #[test]

@@ -69,7 +69,7 @@ pub fn matte(albedo: f32) -> MaterialDesc {
 }
 
 pub(super) fn metal(albedo: f32, roughness: f32) -> MaterialDesc {
-    MaterialDesc::Metal(Metal { albedo: Rgb::grey(albedo).into(), roughness })
+    MaterialDesc::Metal(Metal { albedo: Rgb::grey(albedo).into(), roughness: roughness.into() })
 }
 
 /// A lamp that shines on the side of its normal.

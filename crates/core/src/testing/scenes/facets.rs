@@ -40,7 +40,7 @@ fn once_scattered() -> Conductor {
 
 /// What reflects all at every facet shows what is lost between them.
 fn white_metal(roughness: f32, degrees: f64) -> KnownScene {
-    let metal = Conductor { reflectance: Some(Rgb::grey(1.0)), roughness, ..once_scattered() };
+    let metal = Conductor { reflectance: Some(Rgb::grey(1.0).into()), roughness: roughness.into(), ..once_scattered() };
     let facets = Facets::new(roughness);
     let expected = facets.radiance(degrees, |wo, m| facets.reflected(wo, m));
     under_the_sky(format!("white facets of roughness {roughness}"), MaterialDesc::Conductor(metal), degrees, expected)
@@ -48,7 +48,7 @@ fn white_metal(roughness: f32, degrees: f64) -> KnownScene {
 
 fn gold(roughness: f32, degrees: f64) -> KnownScene {
     let (eta, k) = ([0.143, 0.375, 1.44], [3.98, 2.39, 1.60]);
-    let metal = Conductor { eta: Some(Rgb(eta)), k: Some(Rgb(k)), roughness, ..once_scattered() };
+    let metal = Conductor { eta: Some(Rgb(eta)), k: Some(Rgb(k)), roughness: roughness.into(), ..once_scattered() };
     let facets = Facets::new(roughness);
     let radiance = std::array::from_fn(|i| {
         let (eta, k) = (f64::from(eta[i]), f64::from(k[i]));
@@ -60,7 +60,7 @@ fn gold(roughness: f32, degrees: f64) -> KnownScene {
 
 /// From outside, or, beyond 90 degrees, from inside the glass.
 fn frosted(roughness: f32, degrees: f64) -> KnownScene {
-    let glass = Dielectric { eta: 1.5, roughness };
+    let glass = Dielectric { eta: 1.5, roughness: roughness.into() };
     let facets = Facets::new(roughness);
     let (angle, eta) = if degrees < 90.0 { (degrees, 1.5) } else { (180.0 - degrees, 1.0 / 1.5) };
     let expected = facets.radiance(angle, |wo, m| {

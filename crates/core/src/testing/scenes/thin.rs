@@ -21,7 +21,7 @@ fn sky() -> EnvironmentDesc {
 fn pane(degrees: f64) -> KnownScene {
     let (sin, cos) = degrees.to_radians().sin_cos();
     let mut desc = empty(sky(), stare([0.3 + 2.0 * sin as f32, 2.0 * cos as f32, 0.1], [0.3, 0.0, 0.1]));
-    let glass = ThinDielectric { eta: 1.5, color: Rgb::grey(0.5) };
+    let glass = ThinDielectric { eta: 1.5, color: Rgb::grey(0.5).into() };
     add_quad(&mut desc, floor(0.0), "pane", MaterialDesc::ThinDielectric(glass));
     let r = reflectance(cos.abs(), 1.5);
     let [mirrored, behind] = [0.5 * (1.0 + cos), 0.5 * (1.0 - cos)];
@@ -32,7 +32,7 @@ fn pane(degrees: f64) -> KnownScene {
 /// In the white furnace a ball of what absorbs nothing cannot be told from the background.
 fn white_sheet() -> KnownScene {
     let mut desc = empty(WHITE, stare([0.3, 0.0, 3.0], [0.3, 0.4, 0.0]));
-    let sheet = DiffuseTransmission { reflectance: Rgb::grey(0.25), transmittance: Rgb::grey(0.75) };
+    let sheet = DiffuseTransmission { reflectance: Rgb::grey(0.25).into(), transmittance: Rgb::grey(0.75).into() };
     add_sphere(&mut desc, [0.0; 3], 1.0, "ball", MaterialDesc::DiffuseTransmission(sheet));
     KnownScene::new("white furnace, ball of a sheet", desc, 1000, 1.0)
 }
@@ -42,7 +42,10 @@ fn white_sheet() -> KnownScene {
 fn paper(side: f32) -> KnownScene {
     let (reflectance, transmittance) = (0.6, 0.3);
     let mut desc = empty(sky(), stare([3.0, 0.4 * side, 0.0], [0.0; 3]));
-    let sheet = DiffuseTransmission { reflectance: Rgb::grey(reflectance), transmittance: Rgb::grey(transmittance) };
+    let sheet = DiffuseTransmission {
+        reflectance: Rgb::grey(reflectance).into(),
+        transmittance: Rgb::grey(transmittance).into(),
+    };
     add_quad(&mut desc, floor(0.0), "paper", MaterialDesc::DiffuseTransmission(sheet));
     let [here, there] = if side > 0.0 { [5.0, 1.0] } else { [1.0, 5.0] };
     let expected = (f64::from(reflectance) * here + f64::from(transmittance) * there) / 6.0;

@@ -86,23 +86,29 @@ fn lobes() -> impl Iterator<Item = (&'static str, MaterialDesc, Reciprocal)> {
     let gold = Conductor {
         eta: Some(Rgb([0.143, 0.375, 1.44])),
         k: Some(Rgb([3.98, 2.39, 1.60])),
-        roughness: 0.3,
+        roughness: 0.3.into(),
         ..Conductor::default()
     };
-    let leaf = DiffuseTransmission { reflectance: Rgb([0.1, 0.3, 0.05]), transmittance: Rgb([0.2, 0.5, 0.0]) };
-    let velvet = Sheen { color: Rgb([0.9, 0.4, 0.2]), roughness: 0.4, albedo: Rgb([0.2, 0.1, 0.0]) };
+    let leaf =
+        DiffuseTransmission { reflectance: Rgb([0.1, 0.3, 0.05]).into(), transmittance: Rgb([0.2, 0.5, 0.0]).into() };
+    let velvet =
+        Sheen { color: Rgb([0.9, 0.4, 0.2]).into(), roughness: 0.4.into(), albedo: Rgb([0.2, 0.1, 0.0]).into() };
     [
         ("matte", MaterialDesc::Lambertian(Lambertian { albedo: Rgb([0.9, 0.5, 0.1]).into() }), Reciprocal::Yes),
         (
             "rough matte",
-            MaterialDesc::OrenNayar(OrenNayar { albedo: Rgb::grey(1.0).into(), roughness: 0.8 }),
+            MaterialDesc::OrenNayar(OrenNayar { albedo: Rgb::grey(1.0).into(), roughness: 0.8.into() }),
             Reciprocal::Yes,
         ),
         ("a leaf", MaterialDesc::DiffuseTransmission(leaf), Reciprocal::Yes),
         ("velvet", MaterialDesc::Sheen(velvet), Reciprocal::Yes),
-        ("fuzzy metal", MaterialDesc::Metal(Metal { albedo: Rgb::grey(0.9).into(), roughness: 0.4 }), Reciprocal::No),
+        (
+            "fuzzy metal",
+            MaterialDesc::Metal(Metal { albedo: Rgb::grey(0.9).into(), roughness: 0.4.into() }),
+            Reciprocal::No,
+        ),
         ("rough metal", MaterialDesc::Conductor(gold), Reciprocal::Yes),
-        ("rough glass", MaterialDesc::Dielectric(Dielectric { eta: 1.5, roughness: 0.5 }), Reciprocal::Yes),
+        ("rough glass", MaterialDesc::Dielectric(Dielectric { eta: 1.5, roughness: 0.5.into() }), Reciprocal::Yes),
     ]
     .into_iter()
 }
