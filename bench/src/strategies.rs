@@ -188,8 +188,10 @@ fn hall(count: u32) -> SceneDesc {
             mesh.triangles.push([first, first + 1, first + 2]);
         }
         let radiance = Rgb::grey(2.0 * 8.0_f32.powi(class as i32));
-        desc.material
-            .insert(format!("lamp {class}"), MaterialDesc::Emissive(Emissive { radiance, ..Emissive::default() }));
+        desc.material.insert(
+            format!("lamp {class}"),
+            MaterialDesc::Emissive(Emissive { radiance: radiance.into(), ..Emissive::default() }),
+        );
         if !mesh.triangles.is_empty() {
             desc.shape.mesh.push(mesh);
         }

@@ -111,7 +111,7 @@ fn add(desc: &mut SceneDesc, shape: Shape, folder: &Path) -> Result<(), Box<dyn 
             let material = match emission {
                 Some(radiance) => {
                     let name = format!("lamp {}", desc.shape.quad.len());
-                    let lamp = Emissive { radiance: Rgb(radiance), ..Emissive::default() };
+                    let lamp = Emissive { radiance: Rgb(radiance).into(), ..Emissive::default() };
                     desc.material.insert(name.clone(), MaterialDesc::Emissive(lamp));
                     name
                 }

@@ -15,7 +15,7 @@ use crate::film::{BoxFilter, FilterDesc};
 use crate::integrator::IntegratorKind;
 use crate::light::select::LightSelection;
 use crate::light::{EnvironmentDesc, LightsDesc};
-use crate::material::MaterialDesc;
+use crate::material::{self, MaterialDesc};
 use crate::sampler::SamplerKind;
 use crate::shape::ShapesDesc;
 use crate::texture::{self, TextureDesc};
@@ -147,16 +147,7 @@ impl SceneDesc {
         c.within("light", |c| self.light.check(c));
         let mut textures = texture::nesting(&self.texture);
         c.within("texture", |c| texture::check(&self.texture, &mut textures, c));
-        c.within("material", |c| {
-            for (name, material) in &self.material {
-                c.within(name, |c| {
-                    material.check(c);
-                    let mut material = material.clone();
-                    let (kind, names) = material.textures();
-                    textures.check_names(kind, names, c);
-                });
-            }
-        });
+        c.within("material", |c| material::check(&self.material, &textures, c));
         c.within("shape", |c| {
             self.shape.check_count(c);
             for (kind, index, shape) in self.shape.iter() {

@@ -10,7 +10,7 @@ use crate::math::{Frame, renormalize};
 use crate::sampler::Sampler;
 use crate::scene::Met;
 use crate::shape::SurfacePoint;
-use crate::texture::{TexturePoint, Textures, TexturesAt};
+use crate::texture::Textures;
 
 /// A point of a surface, seen along a ray.
 ///
@@ -60,7 +60,19 @@ impl<'s> SurfaceInteraction<'s> {
     /// Radiance that the surface itself sends back along the ray.
     #[inline]
     pub fn le(&self) -> Spectrum {
-        self.material.le(self.wo)
+        self.material.le(self.wo, self)
+    }
+
+    /// Gives it another material.
+    pub(crate) fn wear(&mut self, material: &'s MaterialDesc) {
+        self.material = material;
+    }
+
+    /// Gives it another shading normal, and a direction that the x axis of materials follows.
+    pub(crate) fn turn(&mut self, ns: Vec3, x: Vec3) {
+        self.point.ns = ns;
+        self.frame = Frame::from_zx(ns, x);
+        self.wo = self.frame.to_local(self.wo_world);
     }
 
     /// How the surface scatters light here.
@@ -137,7 +149,6 @@ impl<'s> SurfaceInteraction<'s> {
 impl Textures for SurfaceInteraction<'_> {
     #[inline(never)]
     fn color(&self, texture: u32) -> Spectrum {
-        let at = TexturePoint { uv: self.uv(), p: self.point.p };
-        TexturesAt { textures: self.met.textures(), at }.color(texture)
+        self.met.textures(&self.point).color(texture)
     }
 }

@@ -157,7 +157,7 @@ impl Checker {
     }
 
     /// The film holds sums of samples up to 2³² (see [`film`](crate::film)).
-    const BRIGHTEST: f32 = 1e9;
+    pub(crate) const BRIGHTEST: f32 = 1e9;
 
     pub(crate) fn nonzero(&mut self, key: &str, v: [f32; 3]) {
         self.finite(key, &v);

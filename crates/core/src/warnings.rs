@@ -23,15 +23,21 @@ impl SceneDesc {
         c.into_problems()
     }
 
+    /// Whether a material, or one that it is made of, is a lamp, and if so, whether that gives light.
+    fn lamp(&self, material: &str) -> Option<bool> {
+        let material = self.material.get(material)?;
+        let here = material.emission().map(|(color, _)| color.rgb() != Some(Rgb::grey(0.0)));
+        let mut material = material.clone();
+        let parts = material.parts().into_iter().filter_map(|(_, name)| self.lamp(name?.name()));
+        here.into_iter().chain(parts).reduce(|a, b| a || b)
+    }
+
     fn is_emissive(&self, material: Option<&str>) -> bool {
-        matches!(material.and_then(|name| self.material.get(name)), Some(MaterialDesc::Emissive(_)))
+        self.lamp(material.unwrap_or(Self::DEFAULT_MATERIAL)).is_some()
     }
 
     fn warn_of_darkness(&self, c: &mut Checker) {
-        let shines = |name: Option<&str>| {
-            let material = name.or(Some(Self::DEFAULT_MATERIAL)).and_then(|name| self.material.get(name));
-            material.is_some_and(|m| matches!(m, MaterialDesc::Emissive(_)) && !is_unlit_lamp(m))
-        };
+        let shines = |name: Option<&str>| self.lamp(name.unwrap_or(Self::DEFAULT_MATERIAL)) == Some(true);
         let meshes = self.shape.mesh.iter();
         let is_lit = !self.environment.is_dark()
             || !self.light.is_dark()
@@ -62,7 +68,7 @@ impl SceneDesc {
 }
 
 fn is_unlit_lamp(material: &MaterialDesc) -> bool {
-    matches!(material, MaterialDesc::Emissive(lamp) if lamp.radiance.0 == [0.0; 3])
+    matches!(material, MaterialDesc::Emissive(lamp) if lamp.radiance.rgb() == Some(Rgb::grey(0.0)))
 }
 
 impl EnvironmentDesc {
@@ -140,7 +146,7 @@ mod tests {
     }
 
     fn with_lamp(radiance: f32) -> SceneDesc {
-        let lamp = Emissive { radiance: Rgb::grey(radiance), ..Emissive::default() };
+        let lamp = Emissive { radiance: Rgb::grey(radiance).into(), ..Emissive::default() };
         let material = [("lamp".to_owned(), MaterialDesc::Emissive(lamp))].into();
         SceneDesc { environment: DARK, material, ..SceneDesc::default() }
     }

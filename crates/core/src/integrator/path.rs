@@ -108,9 +108,7 @@ fn direct(
         return Spectrum::BLACK;
     }
     *rays += 1;
-    if scene.occluded(&si.shadow_ray(&light)) {
-        return Spectrum::BLACK;
-    }
+    let l = scene.arriving(&light, si);
     let weight = if light.delta { 1.0 } else { power_heuristic(light.pdf, pdf) };
-    f * light.l * (weight / light.pdf)
+    f * l * (weight / light.pdf)
 }

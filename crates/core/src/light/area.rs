@@ -13,7 +13,7 @@ use crate::sampling::{
 };
 use crate::shape::SurfacePoint;
 
-/// A primitive that shines, with the same radiance everywhere and into all directions.
+/// A primitive that shines into all directions, with the same radiance everywhere or about that in the mean.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct AreaLight {
     shape: Shape,
@@ -21,6 +21,8 @@ pub(crate) struct AreaLight {
     two_sided: bool,
     /// Where the scene keeps it.
     on: Slot,
+    /// Its number among the lights, if its radiance is not the same everywhere.
+    varies: Option<u32>,
 }
 
 #[derive(Clone, Copy, Debug)]
@@ -61,7 +63,13 @@ enum FlatSampling {
 
 impl AreaLight {
     /// None for a primitive that cannot shine.
-    pub(crate) fn new(primitive: &Primitive, on: Slot, radiance: Spectrum, two_sided: bool) -> Option<Self> {
+    pub(crate) fn new(
+        primitive: &Primitive,
+        on: Slot,
+        radiance: Spectrum,
+        two_sided: bool,
+        varies: Option<u32>,
+    ) -> Option<Self> {
         let shape = match primitive {
             Primitive::Sphere(s) => Shape::Sphere { center: s.center, radius: s.radius },
             Primitive::Quad(q) => {
@@ -72,7 +80,7 @@ impl AreaLight {
             Primitive::Triangle(t) => Shape::Flat(Flat::new(Kind::Triangle, t.a, [t.b - t.a, t.c - t.a])),
             Primitive::MovingTriangle(_) | Primitive::Instance(_) => return None,
         };
-        Some(Self { shape, radiance, two_sided, on })
+        Some(Self { shape, radiance, two_sided, on, varies })
     }
 
     /// Where it is and how much it shines.
@@ -99,7 +107,7 @@ impl AreaLight {
             Shape::Flat(flat) => self.sample_flat(&flat, p, u),
         }?;
         let target = Target::On { point: point.ray_origin(-wi, -wi), on: self.on };
-        (pdf > 0.0).then_some(LightSample { wi, target, l: self.radiance, pdf, delta: false })
+        (pdf > 0.0).then_some(LightSample { wi, target, l: self.radiance, pdf, delta: false, varies: self.varies })
     }
 
     fn sample_flat(&self, flat: &Flat, p: Vec3, u: Vec2) -> Option<(SurfacePoint, Vec3, f32)> {
@@ -216,7 +224,7 @@ mod tests {
     }
 
     fn light(primitive: Primitive) -> AreaLight {
-        AreaLight::new(&primitive, Slot::NONE, Spectrum::ONE, true).unwrap()
+        AreaLight::new(&primitive, Slot::NONE, Spectrum::ONE, true, None).unwrap()
     }
 
     /// Inside a box of lamps the irradiance of a point of a wall is π, whichever wall: what all samples make of it.
@@ -284,7 +292,7 @@ mod tests {
         {
             let inside = Vec3::new(0.3, -0.1, 0.3);
             for two_sided in [false, true] {
-                let light = AreaLight::new(&primitive, Slot::NONE, Spectrum::ONE, two_sided).unwrap();
+                let light = AreaLight::new(&primitive, Slot::NONE, Spectrum::ONE, two_sided, None).unwrap();
                 assert!(light.sample(outside, Vec2::splat(0.4)).is_some());
                 assert_eq!(light.sample(inside, Vec2::splat(0.4)).is_some(), two_sided);
             }

@@ -69,6 +69,7 @@ fn from_point(position: Vec3, p: Vec3, intensity: impl FnOnce(Vec3) -> Spectrum)
         l,
         pdf: 1.0,
         delta: true,
+        varies: None,
     })
 }
 
@@ -94,18 +95,20 @@ pub(crate) struct Lights {
 }
 
 impl Lights {
-    pub(crate) fn new(
-        lights: Vec<Light>,
-        selection: LightSelection,
-        environment: Environment,
-        disks: Vec<Disk>,
-    ) -> Self {
-        let bounds: Vec<_> = lights.iter().map(Light::bounds).collect();
+    /// Those that are infinitely far away.
+    pub(crate) fn far(environment: Environment, disks: Vec<Disk>) -> Self {
         let luminance = |s: Spectrum| Rgb(s.to_rgb()).luminance();
         let far = environment.sampled().map_or(0.0, |map| luminance(map.mean_irradiance()));
         let weights: Vec<_> = disks.iter().map(|disk| luminance(disk.irradiance())).chain([far]).collect();
         let weights_sum = weights.iter().sum();
-        Self { selector: LightSelector::new(selection, &bounds), lights, environment, disks, weights, weights_sum }
+        let selector = LightSelector::new(LightSelection::default(), &[]);
+        Self { lights: Vec::new(), selector, environment, disks, weights, weights_sum }
+    }
+
+    /// With those that are somewhere.
+    pub(crate) fn with_near(self, lights: Vec<Light>, selection: LightSelection) -> Self {
+        let bounds: Vec<_> = lights.iter().map(Light::bounds).collect();
+        Self { lights, selector: LightSelector::new(selection, &bounds), ..self }
     }
 
     /// Whether [`sample`](Self::sample) can draw anything.
@@ -148,11 +151,11 @@ impl Lights {
         let sample = match self.disks.get(index) {
             Some(disk) => {
                 let (wi, l) = disk.sample(u);
-                LightSample { wi, target: Target::Infinity, l, pdf: disk.pdf(), delta: disk.is_delta() }
+                LightSample { wi, target: Target::Infinity, l, pdf: disk.pdf(), delta: disk.is_delta(), varies: None }
             }
             None => {
                 let (wi, l, pdf) = self.environment.sampled()?.sample(u)?;
-                LightSample { wi, target: Target::Infinity, l, pdf, delta: false }
+                LightSample { wi, target: Target::Infinity, l, pdf, delta: false, varies: None }
             }
         };
         Some(sample.chosen((1.0 - near) * self.weights[index] / self.weights_sum))

@@ -106,6 +106,8 @@ pub struct LightSample {
     pub pdf: f32,
     /// Whether this is the only direction to the light.
     pub delta: bool,
+    /// Of a light whose radiance is only known where a ray meets it, the number; `l` is about its mean then.
+    pub varies: Option<u32>,
 }
 
 /// Where a light is.

@@ -7,6 +7,8 @@
 //! [material.lamp.emissive]
 //! radiance = [17, 13.5, 9]
 //! ```
+//!
+//! Radiance may be a texture: a screen, a window full of sky, a shade of paper.
 
 use glam::Vec3;
 use schemars::JsonSchema;
@@ -22,7 +24,7 @@ use crate::validate::Checker;
 #[serde(deny_unknown_fields, default)]
 pub struct Emissive {
     /// Emitted radiance, W / (m² sr), not negative.
-    pub radiance: Rgb,
+    pub radiance: Color,
     /// Share of arriving light that is scattered back, as by a lambertian surface, 0..1.
     pub albedo: Color,
     /// Whether the side that the normal points away from shines too.
@@ -31,13 +33,13 @@ pub struct Emissive {
 
 impl Default for Emissive {
     fn default() -> Self {
-        Self { radiance: Rgb::grey(1.0), albedo: Rgb::grey(0.0).into(), two_sided: false }
+        Self { radiance: Rgb::grey(1.0).into(), albedo: Rgb::grey(0.0).into(), two_sided: false }
     }
 }
 
 impl Emissive {
     pub(crate) fn check(&self, c: &mut Checker) {
-        c.radiance("radiance", self.radiance);
+        self.radiance.check_amount("radiance", c);
         self.albedo.check_share("albedo", c);
     }
 
@@ -47,20 +49,21 @@ impl Emissive {
     }
 
     #[inline]
-    pub(crate) fn le(&self, wo: Vec3) -> Spectrum {
-        if wo.z > 0.0 || self.two_sided { self.radiance.into() } else { Spectrum::BLACK }
+    pub(crate) fn le(&self, wo: Vec3, textures: &impl Textures) -> Spectrum {
+        if wo.z > 0.0 || self.two_sided { self.radiance.amount_at(textures) } else { Spectrum::BLACK }
     }
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::texture::NoTextures;
 
     #[test]
     fn shines_on_the_side_of_the_normal() {
         let one = Emissive::default();
-        assert!(!one.le(Vec3::Z).is_black() && one.le(Vec3::NEG_Z).is_black());
+        assert!(!one.le(Vec3::Z, &NoTextures).is_black() && one.le(Vec3::NEG_Z, &NoTextures).is_black());
         let two = Emissive { two_sided: true, ..one };
-        assert_eq!(two.le(Vec3::Z), two.le(Vec3::NEG_Z));
+        assert_eq!(two.le(Vec3::Z, &NoTextures), two.le(Vec3::NEG_Z, &NoTextures));
     }
 }

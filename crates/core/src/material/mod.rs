@@ -4,6 +4,7 @@
 //! `sample`, `eval`, `pdf`. Directions are unit vectors in the surface's local frame (normal = +z) that point away
 //! from the surface: `wo` to where light is going, `wi` to where it comes from.
 
+mod bump;
 mod charlie;
 mod conductor;
 mod dielectric;
@@ -12,31 +13,44 @@ mod emissive;
 mod fresnel;
 mod lambertian;
 mod lost;
+mod mask;
 mod metal;
 mod metals;
 mod microfacet;
+mod mix;
+mod normal_map;
+mod null;
 mod oren_nayar;
 mod sheen;
 mod thin_dielectric;
+
+use std::collections::BTreeMap;
+use std::iter;
 
 use glam::{Vec2, Vec3};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 use crate::color::Spectrum;
-use crate::names::Named;
+use crate::desc::SceneDesc;
+use crate::names::{Named, Nesting};
 use crate::texture::{Color, Textures};
 use crate::validate::Checker;
 
+pub use bump::Bump;
 pub use conductor::{Conductor, ConductorBsdf};
 pub use dielectric::{Dielectric, DielectricBsdf};
 pub use diffuse_transmission::{DiffuseTransmission, DiffuseTransmissionBsdf};
 pub use emissive::Emissive;
 pub use fresnel::{Fresnel, fresnel_conductor};
 pub use lambertian::{Lambertian, LambertianBsdf};
+pub use mask::Mask;
 pub use metal::{Metal, MetalBsdf};
 pub use metals::NamedMetal;
 pub use microfacet::{Facet, Ggx};
+pub use mix::Mix;
+pub use normal_map::NormalMap;
+pub use null::{Null, NullBsdf};
 pub use oren_nayar::{OrenNayar, OrenNayarBsdf};
 pub use sheen::{Sheen, SheenBsdf};
 pub use thin_dielectric::{ThinDielectric, ThinDielectricBsdf};
@@ -63,6 +77,38 @@ pub enum MaterialDesc {
     ThinDielectric(ThinDielectric),
     /// A lamp.
     Emissive(Emissive),
+    /// Nothing.
+    Null(Null),
+    /// One or the other.
+    Mix(Mix),
+    /// With holes.
+    Mask(Mask),
+    /// With normals from a texture.
+    NormalMap(NormalMap),
+    /// With a relief.
+    Bump(Bump),
+}
+
+/// Notes what is wrong with materials, names that do not exist, and materials that are made of themselves.
+pub(crate) fn check(materials: &BTreeMap<String, MaterialDesc>, textures: &Nesting<'_>, c: &mut Checker) {
+    let words = ["material", "materials", "add one as [material.NAME.KIND]"];
+    let parts = |material: &MaterialDesc| {
+        let mut material = material.clone();
+        let names = material.parts().into_iter().filter_map(|(_, name)| name);
+        names.map(|name| name.name().to_owned()).collect()
+    };
+    let named = materials.iter().map(|(name, material)| (name.as_str(), parts(material)));
+    let mut nesting = Nesting::new(words, iter::once((SceneDesc::DEFAULT_MATERIAL, vec![])).chain(named));
+    for (name, material) in materials {
+        c.within(name, |c| {
+            material.check(c);
+            let mut material = material.clone();
+            let (kind, names) = material.textures();
+            textures.check_names(kind, names, c);
+            nesting.check_names(kind, material.parts(), c);
+            nesting.check(name, kind, c);
+        });
+    }
 }
 
 impl Default for MaterialDesc {
@@ -84,10 +130,16 @@ impl MaterialDesc {
             Self::Dielectric(m) => c.within("dielectric", |c| m.check(c)),
             Self::ThinDielectric(m) => c.within("thin-dielectric", |c| m.check(c)),
             Self::Emissive(m) => c.within("emissive", |c| m.check(c)),
+            Self::Null(Null {}) => {}
+            Self::Mix(m) => c.within("mix", |c| m.check(c)),
+            Self::Mask(m) => c.within("mask", |c| m.check(c)),
+            Self::NormalMap(m) => c.within("normal-map", |c| m.check(c)),
+            Self::Bump(m) => c.within("bump", |c| m.check(c)),
         }
     }
 
-    /// The lobe that scatters light at a point, where `textures` have the colours that they are asked for.
+    /// The lobe that scatters light at a point, where `textures` have the colours that they are asked for. Of what is made of
+    /// other materials it is that of nothing.
     #[inline]
     pub fn bsdf(&self, textures: &impl Textures) -> Bsdf {
         match self {
@@ -100,6 +152,7 @@ impl MaterialDesc {
             Self::Dielectric(m) => Bsdf::Dielectric(m.bsdf(textures)),
             Self::ThinDielectric(m) => Bsdf::ThinDielectric(m.bsdf(textures)),
             Self::Emissive(m) => Bsdf::Lambertian(m.bsdf(textures)),
+            Self::Null(_) | Self::Mix(_) | Self::Mask(_) | Self::NormalMap(_) | Self::Bump(_) => Bsdf::Null(NullBsdf),
         }
     }
 
@@ -132,15 +185,44 @@ impl MaterialDesc {
             ),
             Self::Dielectric(m) => ("dielectric", vec![("roughness", m.roughness.texture())]),
             Self::ThinDielectric(m) => ("thin-dielectric", vec![("color", m.color.texture())]),
-            Self::Emissive(m) => ("emissive", vec![("albedo", m.albedo.texture())]),
+            Self::Emissive(m) => ("emissive", vec![("radiance", m.radiance.texture()), ("albedo", m.albedo.texture())]),
+            Self::Null(_) => ("null", vec![]),
+            Self::Mix(m) => ("mix", vec![("share", m.share.texture())]),
+            Self::Mask(m) => ("mask", vec![("opacity", m.opacity.texture())]),
+            Self::NormalMap(m) => ("normal-map", vec![("map", m.map.texture())]),
+            Self::Bump(m) => ("bump", vec![("height", m.height.texture())]),
+        }
+    }
+
+    /// The materials that it is made of, by their keys.
+    pub(crate) fn parts(&mut self) -> Named<'_> {
+        match self {
+            Self::Mix(m) => vec![("a", Some(&mut m.a)), ("b", Some(&mut m.b))],
+            Self::Mask(m) => vec![("of", Some(&mut m.of))],
+            Self::NormalMap(m) => vec![("of", Some(&mut m.of))],
+            Self::Bump(m) => vec![("of", Some(&mut m.of))],
+            _ => vec![],
+        }
+    }
+
+    /// Whether highlights have a direction, so that it matters how coordinates lie on the shape.
+    pub(crate) fn is_anisotropic(&self) -> bool {
+        matches!(self, Self::Conductor(m) if m.anisotropy > 0.0)
+    }
+
+    /// The colour in which it shines, if it does, and whether its back does, too.
+    pub(crate) fn emission(&self) -> Option<(&Color, bool)> {
+        match self {
+            Self::Emissive(m) => Some((&m.radiance, m.two_sided)),
+            _ => None,
         }
     }
 
     /// Radiance that the surface itself sends along `wo`.
     #[inline]
-    pub fn le(&self, wo: Vec3) -> Spectrum {
+    pub fn le(&self, wo: Vec3, textures: &impl Textures) -> Spectrum {
         match self {
-            Self::Emissive(m) => m.le(wo),
+            Self::Emissive(m) => m.le(wo, textures),
             _ => Spectrum::BLACK,
         }
     }
@@ -165,6 +247,8 @@ pub enum Bsdf {
     Dielectric(DielectricBsdf),
     /// See [`ThinDielectric`].
     ThinDielectric(ThinDielectricBsdf),
+    /// See [`Null`].
+    Null(NullBsdf),
 }
 
 /// A direction drawn from a lobe.
@@ -204,6 +288,7 @@ impl Bsdf {
             Self::Conductor(b) => b.sample(wo, uc, u),
             Self::Dielectric(b) => b.sample(wo, uc, u),
             Self::ThinDielectric(b) => b.sample(wo, uc),
+            Self::Null(NullBsdf) => Some(NullBsdf::sample(wo)),
         }
     }
 
@@ -218,7 +303,7 @@ impl Bsdf {
             Self::Metal(b) => b.eval_pdf(wo, wi),
             Self::Conductor(b) => b.eval_pdf(wo, wi),
             Self::Dielectric(b) => b.eval_pdf(wo, wi),
-            Self::ThinDielectric(_) => (Spectrum::BLACK, 0.0),
+            Self::ThinDielectric(_) | Self::Null(_) => (Spectrum::BLACK, 0.0),
         }
     }
 
@@ -244,7 +329,7 @@ impl Bsdf {
             Self::Sheen(b) => b.albedo(),
             Self::Metal(b) => b.albedo(),
             Self::Conductor(b) => b.albedo(),
-            Self::Dielectric(_) | Self::ThinDielectric(_) => Spectrum::ONE,
+            Self::Dielectric(_) | Self::ThinDielectric(_) | Self::Null(_) => Spectrum::ONE,
         }
     }
 
@@ -256,7 +341,7 @@ impl Bsdf {
             Self::Metal(b) => b.is_delta(),
             Self::Conductor(b) => b.is_delta(),
             Self::Dielectric(b) => b.is_delta(),
-            Self::ThinDielectric(_) => true,
+            Self::ThinDielectric(_) | Self::Null(_) => true,
         }
     }
 }

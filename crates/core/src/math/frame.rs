@@ -26,6 +26,19 @@ impl Frame {
         }
     }
 
+    /// The frame around a unit normal whose x axis is as near to a direction as it can be; any frame if that is none.
+    pub fn from_zx(z: Vec3, x: Vec3) -> Self {
+        let Some(x) = x.try_normalize().and_then(|x| (x - z * x.dot(z)).try_normalize()) else {
+            return Self::from_z(z);
+        };
+        Self { x, y: z.cross(x), z }
+    }
+
+    /// The same with its y axis turned round.
+    pub fn mirrored(self) -> Self {
+        Self { y: -self.y, ..self }
+    }
+
     /// World to local.
     #[inline]
     pub fn to_local(&self, v: Vec3) -> Vec3 {
@@ -52,11 +65,21 @@ mod tests {
         fn is_orthonormal_and_round_trips(x in -1.0f32..1.0, y in -1.0f32..1.0, z in -1.0f32..1.0) {
             let n = Vec3::new(x, y, z);
             prop_assume!(n.length() > 1e-3);
-            let frame = Frame::from_z(n.normalize());
+            for frame in [Frame::from_z(n.normalize()), Frame::from_zx(n.normalize(), Vec3::new(0.1, 0.7, z))] {
             let v = Vec3::new(0.3, -0.5, 0.7);
             prop_assert!((frame.to_world(frame.to_local(v)) - v).length() < 1e-5);
             prop_assert!((frame.to_local(n.normalize()) - Vec3::Z).length() < 1e-5);
             prop_assert!((frame.x.cross(frame.y) - frame.z).length() < 1e-5);
+            }
+        }
+
+        /// The x axis is in the plane of the normal and the direction that it shall follow.
+        #[test]
+        fn follows_a_direction(x in -1.0f32..1.0, y in -1.0f32..1.0, z in -1.0f32..1.0) {
+            let n = Vec3::new(x, y, z);
+            prop_assume!(n.length() > 1e-3 && n.normalize().y.abs() < 0.99);
+            let frame = Frame::from_zx(n.normalize(), 5.0 * Vec3::Y);
+            prop_assert!(frame.x.y > 0.0 && frame.x.dot(n.cross(Vec3::Y)).abs() < 1e-5);
         }
     }
 }

@@ -72,10 +72,28 @@ pub(crate) struct MeshUvs {
 }
 
 impl MeshUvs {
+    /// At the corners of a triangle.
+    fn corners(&self, triangle: u32) -> [Vec2; 3] {
+        let corners = self.triangles.get(triangle as usize).copied().unwrap_or_default();
+        corners.map(|i| self.uvs.get(i as usize).copied().map_or(Vec2::ZERO, Vec2::from))
+    }
+
+    /// How a point of a triangle with these first two edges moves with the coordinates; nothing is said where they are the same
+    /// all over.
+    pub(crate) fn tangents(&self, triangle: u32, edges: [Vec3; 2]) -> [Vec3; 2] {
+        let [a, b, c] = self.corners(triangle);
+        let [first, second] = [b - a, c - a];
+        let area = first.perp_dot(second);
+        if area == 0.0 {
+            return [Vec3::ZERO; 2];
+        }
+        let [e1, e2] = edges;
+        [(e1 * second.y - e2 * first.y) / area, (e2 * first.x - e1 * second.x) / area]
+    }
+
     /// At the point of a triangle where its second and third vertex have these weights.
     pub(crate) fn at(&self, triangle: u32, weights: Vec2) -> Vec2 {
-        let corners = self.triangles.get(triangle as usize).copied().unwrap_or_default();
-        let [a, b, c] = corners.map(|i| self.uvs.get(i as usize).copied().map_or(Vec2::ZERO, Vec2::from));
+        let [a, b, c] = self.corners(triangle);
         a * (1.0 - weights.x - weights.y) + b * weights.x + c * weights.y
     }
 }

@@ -21,9 +21,9 @@ pub use mesh::{MeshData, MeshDesc};
 pub(crate) use plane::Plane;
 pub use point::SurfacePoint;
 pub use quad::QuadDesc;
-pub(crate) use smooth::Smooth;
+pub(crate) use smooth::{Smooth, visible};
 pub use sphere::SphereDesc;
-pub(crate) use sphere::uv as sphere_uv;
+pub(crate) use sphere::{tangents as sphere_tangents, uv as sphere_uv};
 
 /// All shapes of a scene: `[[shape.KIND]]` adds one.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize, JsonSchema)]

@@ -70,7 +70,7 @@ impl Smooth {
 /// Bends a shading normal until the direction in which it mirrors the view is above the surface. All are unit vectors on the
 /// viewer's side.
 #[inline]
-fn visible(ns: Vec3, n: Vec3, wo: Vec3) -> Vec3 {
+pub(crate) fn visible(ns: Vec3, n: Vec3, wo: Vec3) -> Vec3 {
     /// How far above, at least: the sine of the angle.
     const ABOVE: f32 = 0.01;
     let mirrored = reflect_at(wo, ns);

@@ -63,9 +63,29 @@ pub(crate) fn uv(n: Vec3) -> Vec2 {
     Vec2::new(longitude, latitude)
 }
 
+/// How the point moves with [`uv`]'s longitude and latitude, on a sphere of radius 1; the first is 0 at the poles, the second is
+/// not known there.
+pub(crate) fn tangents(n: Vec3) -> [Vec3; 2] {
+    let cos = n.xz().length();
+    let [east, up] = [Vec3::new(n.z, 0.0, -n.x), Vec3::new(-n.x * n.y, cos * cos, -n.z * n.y)];
+    [2.0 * PI * east, PI * up / cos.max(f32::MIN_POSITIVE)]
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn tangents_are_differences() {
+        for n in [Vec3::new(0.6, 0.5, 0.2), Vec3::new(-0.1, -0.9, 0.3), Vec3::new(0.3, 0.1, -0.8)].map(Vec3::normalize)
+        {
+            let [u, v] = tangents(n);
+            for (along, expected) in [(u, Vec2::X), (v, Vec2::Y)] {
+                let moved = uv((n + 1e-3 * along).normalize()) - uv((n - 1e-3 * along).normalize());
+                assert!((moved / 2e-3 - expected).length() < 1e-2, "{n}: {moved}");
+            }
+        }
+    }
 
     #[test]
     fn longitude_and_latitude() {

@@ -9,6 +9,7 @@ use crate::desc::SceneDesc;
 use crate::light::{AreaLight, Disk, Environment, EnvironmentSampling, Light, LightSample, Target};
 use crate::material::{Emissive, MaterialDesc};
 use crate::shape::SurfacePoint;
+use crate::texture::NoTextures;
 
 /// Every light of a scene, alone: surfaces that shine, primitive by primitive, then lamps without size, suns, and the
 /// environment, also one that is never sampled.
@@ -38,7 +39,8 @@ struct Lamp {
 
 impl Lamp {
     fn new(primitive: Primitive, emissive: &Emissive) -> Option<Self> {
-        let light = AreaLight::new(&primitive, Slot::NONE, emissive.radiance.into(), emissive.two_sided)?;
+        let light =
+            AreaLight::new(&primitive, Slot::NONE, emissive.radiance.amount_at(&NoTextures), emissive.two_sided, None)?;
         Some(Self { light, shape: Bvh::list([primitive].as_slice()).ok()?, emissive: emissive.clone() })
     }
 
@@ -61,7 +63,7 @@ impl LightSampling for Lamp {
     }
 
     fn le(&self, p: Vec3, wi: Vec3) -> Spectrum {
-        self.seen(p, wi).map_or(Spectrum::BLACK, |_| self.emissive.radiance.into())
+        self.seen(p, wi).map_or(Spectrum::BLACK, |_| self.emissive.radiance.amount_at(&NoTextures))
     }
 }
 
@@ -83,7 +85,7 @@ impl LightSampling for Light {
 impl LightSampling for Disk {
     fn sample(&self, _: Vec3, u: Vec2) -> Option<LightSample> {
         let (wi, l) = self.sample(u);
-        Some(LightSample { wi, target: Target::Infinity, l, pdf: self.pdf(), delta: self.is_delta() })
+        Some(LightSample { wi, target: Target::Infinity, l, pdf: self.pdf(), delta: self.is_delta(), varies: None })
     }
 
     fn pdf(&self, _: Vec3, wi: Vec3) -> f32 {
@@ -98,7 +100,7 @@ impl LightSampling for Disk {
 impl LightSampling for Environment {
     fn sample(&self, _: Vec3, u: Vec2) -> Option<LightSample> {
         let (wi, l, pdf) = self.sampled()?.sample(u)?;
-        Some(LightSample { wi, target: Target::Infinity, l, pdf, delta: false })
+        Some(LightSample { wi, target: Target::Infinity, l, pdf, delta: false, varies: None })
     }
 
     fn pdf(&self, _: Vec3, wi: Vec3) -> f32 {

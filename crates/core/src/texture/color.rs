@@ -39,6 +39,15 @@ impl Color {
         }
     }
 
+    /// The amount of light at a point, from nothing to the brightest that the film holds, whatever a texture says.
+    #[inline]
+    pub(crate) fn amount_at(&self, textures: &impl Textures) -> Spectrum {
+        match self {
+            Self::Rgb(rgb) => (*rgb).into(),
+            Self::Texture(name) => textures.color(name.index()).clamp(0.0, Checker::BRIGHTEST),
+        }
+    }
+
     /// The colour, if it is the same everywhere.
     pub fn rgb(&self) -> Option<Rgb> {
         match self {

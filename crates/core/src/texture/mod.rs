@@ -91,6 +91,13 @@ pub struct TexturesAt<'t> {
     pub at: TexturePoint,
 }
 
+impl TexturesAt<'_> {
+    /// The same at a point that is a little off, by so many metres and coordinates.
+    pub(crate) fn moved(&self, by: Vec3, uv: Vec2) -> Self {
+        Self { at: TexturePoint { uv: self.at.uv + uv, p: self.at.p + by }, ..*self }
+    }
+}
+
 impl Textures for TexturesAt<'_> {
     fn color(&self, texture: u32) -> Spectrum {
         // The check has found that names exist and that none leads back to itself.

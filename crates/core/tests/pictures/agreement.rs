@@ -84,7 +84,7 @@ fn lamps() -> SceneDesc {
     for (name, material) in [("it", metal(0.5)), ("lamp", lamp(4.0)), ("dim", lamp(1.5))] {
         with(&mut desc, name, material);
     }
-    let both = Emissive { radiance: Rgb([1.0, 2.0, 3.0]), albedo: Rgb::grey(0.5).into(), two_sided: true };
+    let both = Emissive { radiance: Rgb([1.0, 2.0, 3.0]).into(), albedo: Rgb::grey(0.5).into(), two_sided: true };
     with(&mut desc, "both", MaterialDesc::Emissive(both));
     desc.shape.sphere.push(sphere([-1.5, 1.5, -0.5], 0.6));
     desc.shape.sphere[1].material = Some("lamp".to_owned());
@@ -154,7 +154,7 @@ fn matte_and_thin() -> SceneDesc {
 /// Inside of a ball that shines inwards, and a lamp so close to the floor that it fills most of its sky.
 fn enclosed() -> SceneDesc {
     let mut desc = still_life(DARK);
-    let both = Emissive { radiance: Rgb([0.2, 0.3, 0.4]), albedo: Rgb::grey(0.4).into(), two_sided: true };
+    let both = Emissive { radiance: Rgb([0.2, 0.3, 0.4]).into(), albedo: Rgb::grey(0.4).into(), two_sided: true };
     with(&mut desc, "shell", MaterialDesc::Emissive(both));
     with(&mut desc, "lamp", lamp(2.0));
     desc.shape.sphere.push(sphere([0.0; 3], 6.0));

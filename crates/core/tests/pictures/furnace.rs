@@ -63,7 +63,7 @@ fn glass_is_brighter_inside() {
 #[test]
 fn paths_have_as_many_edges_as_allowed() {
     let (e, a) = (3.0_f32, 0.6_f32);
-    let emissive = Emissive { radiance: Rgb::grey(e), albedo: Rgb::grey(a).into(), two_sided: true };
+    let emissive = Emissive { radiance: Rgb::grey(e).into(), albedo: Rgb::grey(a).into(), two_sided: true };
     let mut desc = scene(WHITE, MaterialDesc::Emissive(emissive), look([0.1, 0.2, 0.3], [1.0, 0.0, 0.0], 90.0));
     desc.shape.sphere.push(sphere([0.0; 3], 1.0));
     for depth in [0, 1, 2, 3, 10] {
@@ -75,7 +75,7 @@ fn paths_have_as_many_edges_as_allowed() {
 /// The same in a box of quads and in one of triangles.
 #[test]
 fn boxes_keep_their_light() {
-    let emissive = Emissive { radiance: Rgb::grey(1.0), albedo: Rgb::grey(0.5).into(), two_sided: true };
+    let emissive = Emissive { radiance: Rgb::grey(1.0).into(), albedo: Rgb::grey(0.5).into(), two_sided: true };
     let mut desc = scene(DARK, MaterialDesc::Emissive(emissive), look([0.1, 0.2, 0.3], [1.0, 0.0, 0.0], 100.0));
     let (lo, hi) = ([-0.25, -0.75, -0.25], [0.75, 0.5, 1.0]);
     desc.shape.quad = box_quads(lo, hi);

@@ -76,6 +76,7 @@ impl LightSampling for ByArea {
             l,
             pdf: self.density(),
             delta: false,
+            varies: None,
         })
     }
 

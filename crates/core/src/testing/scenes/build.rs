@@ -74,5 +74,5 @@ pub(super) fn metal(albedo: f32, roughness: f32) -> MaterialDesc {
 
 /// A lamp that shines on the side of its normal.
 pub fn lamp(radiance: f32) -> MaterialDesc {
-    MaterialDesc::Emissive(Emissive { radiance: Rgb::grey(radiance), ..Emissive::default() })
+    MaterialDesc::Emissive(Emissive { radiance: Rgb::grey(radiance).into(), ..Emissive::default() })
 }

@@ -15,7 +15,7 @@ pub(super) fn scenes() -> Vec<KnownScene> {
 /// Inside of a ball that glows and scatters, every path brings e (1 + a + a² + …), one term an edge.
 fn glowing_ball(depth: u32) -> KnownScene {
     let (e, a) = (3.0, 0.6);
-    let emissive = Emissive { radiance: Rgb::grey(e), albedo: Rgb::grey(a).into(), two_sided: true };
+    let emissive = Emissive { radiance: Rgb::grey(e).into(), albedo: Rgb::grey(a).into(), two_sided: true };
     let mut desc = empty(DARK, stare([0.1, 0.2, 0.3], [1.0, 0.0, 0.0]));
     add_sphere(&mut desc, [0.0; 3], 1.0, "shell", MaterialDesc::Emissive(emissive));
     let (e, a) = (f64::from(e), f64::from(a));

@@ -120,7 +120,7 @@ fn lights() -> impl Iterator<Item = (&'static str, SceneDesc, Vec<Vec3>)> {
     let points = points.map(Vec3::from).to_vec();
     let dark = || {
         let mut desc = SceneDesc { environment: EnvironmentDesc::None(NoLight {}), ..SceneDesc::default() };
-        let lamp = Emissive { radiance: Rgb([2.0, 3.0, 4.0]), ..Emissive::default() };
+        let lamp = Emissive { radiance: Rgb([2.0, 3.0, 4.0]).into(), ..Emissive::default() };
         desc.material.insert("lamp".to_owned(), MaterialDesc::Emissive(lamp.clone()));
         desc.material.insert("both".to_owned(), MaterialDesc::Emissive(Emissive { two_sided: true, ..lamp }));
         desc

@@ -50,7 +50,7 @@ fn still_life() -> SceneDesc {
         ("floor", MaterialDesc::Lambertian(Lambertian { albedo: Rgb([0.7, 0.6, 0.5]).into() })),
         ("metal", MaterialDesc::Metal(Metal { albedo: Rgb([0.9, 0.7, 0.4]).into(), roughness: 0.4.into() })),
         ("glass", MaterialDesc::Dielectric(Dielectric { roughness: 0.4.into(), ..Dielectric::default() })),
-        ("lamp", MaterialDesc::Emissive(Emissive { radiance: Rgb::grey(5.0), ..Emissive::default() })),
+        ("lamp", MaterialDesc::Emissive(Emissive { radiance: Rgb::grey(5.0).into(), ..Emissive::default() })),
     ];
     let mut desc = SceneDesc {
         environment: EnvironmentDesc::default(),

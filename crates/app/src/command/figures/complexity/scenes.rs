@@ -23,7 +23,7 @@ pub(super) fn closed_room() -> SceneDesc {
         environment: EnvironmentDesc::None(NoLight {}),
         ..SceneDesc::default()
     };
-    let wall = Emissive { radiance: Rgb::grey(0.2), albedo: Rgb::grey(0.8).into(), two_sided: true };
+    let wall = Emissive { radiance: Rgb::grey(0.2).into(), albedo: Rgb::grey(0.8).into(), two_sided: true };
     desc.material.insert(WALL.to_owned(), MaterialDesc::Emissive(wall));
     desc.shape.sphere.push(SphereDesc { center: [0.0; 3], radius: 1.0, material: Some(WALL.to_owned()) });
     desc

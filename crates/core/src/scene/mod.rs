@@ -1,19 +1,26 @@
 //! What is rendered: immutable, indices instead of names, ready for rays.
 
-use std::collections::BTreeMap;
+mod dress;
+mod lamps;
+mod met;
 
 pub use eyebeam_bvh::{Bvh, Ray, Slot};
 
 use eyebeam_bvh::{BuildError, Hit, Primitive, Quality};
 use glam::Vec2;
 
+pub(crate) use self::met::Met;
+
+use self::dress::Holes;
 use crate::camera::{Camera, CameraDesc};
+use crate::color::Spectrum;
 use crate::desc::SceneDesc;
 use crate::film::Ids;
 use crate::interaction::SurfaceInteraction;
-use crate::light::{AreaLight, EnvironmentSampling, Light, Lights};
+use crate::light::{EnvironmentSampling, LightSample, Lights};
 use crate::material::MaterialDesc;
-use crate::shape::{MeshUvs, Plane, Smooth, SurfacePoint, sphere_uv};
+use crate::names::Numbers;
+use crate::shape::{MeshUvs, Plane, Smooth, SurfacePoint};
 use crate::texture::{self, TextureDesc};
 use crate::validate::Problem;
 
@@ -49,6 +56,7 @@ pub struct Scene {
     textures: Vec<TextureDesc>,
     lights: Lights,
     camera: CameraDesc,
+    holes: Holes,
 }
 
 /// What the primitives of a shape have in common.
@@ -63,6 +71,47 @@ struct Object {
     plane: Option<Plane>,
     /// Coordinates for textures, if the mesh has them.
     uvs: Option<MeshUvs>,
+    /// Whether it is a sphere.
+    is_round: bool,
+    /// Whether its material is made of others or follows the coordinates.
+    is_dressed: bool,
+    /// Whether rays may pass it.
+    has_holes: bool,
+}
+
+impl Object {
+    fn holes(&self) -> Holes {
+        match (self.has_holes, self.is_round) {
+            (false, _) => Holes::None,
+            (true, false) => Holes::Flat,
+            (true, true) => Holes::Round,
+        }
+    }
+}
+
+/// What a material asks for, itself or by its parts.
+#[derive(Clone, Copy, Debug, Default)]
+struct Wear {
+    is_dressed: bool,
+    has_holes: bool,
+}
+
+impl Wear {
+    /// Of a material by its number.
+    fn of(materials: &[MaterialDesc], index: u32) -> Self {
+        let Some(material) = materials.get(index as usize) else { return Self::default() };
+        let parts =
+            material.clone().parts().into_iter().filter_map(|(_, name)| name.map(|name| name.index())).collect();
+        let parts: Vec<_> = parts;
+        let here = Self {
+            is_dressed: !parts.is_empty() || material.is_anisotropic(),
+            has_holes: matches!(material, MaterialDesc::Mask(_) | MaterialDesc::Null(_)),
+        };
+        parts
+            .into_iter()
+            .map(|part| Self::of(materials, part))
+            .fold(here, |a, b| Self { is_dressed: a.is_dressed || b.is_dressed, has_holes: a.has_holes || b.has_holes })
+    }
 }
 
 impl Scene {
@@ -84,20 +133,19 @@ impl Scene {
             return Err(problems);
         }
         let mut materials = vec![MaterialDesc::default()];
-        let mut index_of = BTreeMap::from([(SceneDesc::DEFAULT_MATERIAL, 0)]);
-        for (name, material) in &desc.material {
-            index_of.insert(name, materials.len() as u32);
-            materials.push(material.clone());
+        materials.extend(desc.material.values().cloned());
+        let (numbers, texture_numbers) = (Numbers::new(desc.material_names()), texture::numbers(&desc.texture));
+        for material in &mut materials {
+            texture_numbers.resolve(material.textures().1);
+            numbers.resolve(material.parts());
         }
-        let numbers = texture::numbers(&desc.texture);
-        materials.iter_mut().for_each(|material| numbers.resolve(material.textures().1));
         let textures = texture::compile(&desc.texture);
         let (mut primitives, mut object_of, mut objects) = (Vec::new(), Vec::new(), Vec::new());
         for (_, _, shape) in desc.shape.iter() {
             let first = primitives.len();
             shape.push_primitives(&mut primitives);
-            // The check has found that every name exists.
-            let material = index_of.get(shape.material().unwrap_or(SceneDesc::DEFAULT_MATERIAL)).copied().unwrap_or(0);
+            let material = numbers.get(shape.material().unwrap_or(SceneDesc::DEFAULT_MATERIAL));
+            let wear = Wear::of(&materials, material);
             object_of.resize(primitives.len(), objects.len() as u32);
             objects.push(Object {
                 material,
@@ -106,6 +154,9 @@ impl Scene {
                 smooth: shape.smooth(),
                 plane: shape.plane(),
                 uvs: shape.uvs(),
+                is_round: matches!(primitives.get(first), Some(Primitive::Sphere(_))),
+                is_dressed: wear.is_dressed,
+                has_holes: wear.has_holes,
             });
         }
         let bvh = match options.acceleration {
@@ -116,52 +167,89 @@ impl Scene {
         // The check has found that every number is finite and that the primitives are not too many.
         let refused = |e: BuildError| vec![Problem { path: vec!["shape".into()], message: e.to_string(), hint: None }];
         let bvh = bvh.map_err(refused)?;
-        let mut lights = area_lights(&primitives, &bvh, &object_of, &mut objects, &materials);
-        lights.extend(desc.light.near());
+        let holes = objects.iter().map(Object::holes).max().unwrap_or_default();
         let (environment, sun) = desc.environment.compile(options.environment);
-        let far = desc.light.far().chain(sun).collect();
-        let lights = Lights::new(lights, desc.render.light_selection, environment, far);
-        Ok(Self { bvh, object_of, objects, materials, textures, lights, camera: desc.camera.clone() })
+        let lights = Lights::far(environment, desc.light.far().chain(sun).collect());
+        let camera = desc.camera.clone();
+        let mut scene = Self { bvh, object_of, objects, materials, textures, lights, camera, holes };
+        let mut near = scene.find_lamps(&primitives);
+        near.extend(desc.light.near());
+        scene.lights = scene.lights.with_near(near, desc.render.light_selection);
+        Ok(scene)
     }
 
     /// The nearest surface that the ray meets; its direction must have length 1.
     #[inline(always)]
     pub fn intersect(&self, ray: &Ray) -> Option<SurfaceInteraction<'_>> {
+        if self.holes != Holes::None {
+            return self.meet(ray).map(|(ray, hit)| self.interaction(&ray, &hit));
+        }
         let hit = self.bvh.intersect(ray)?;
         Some(self.interaction(ray, &hit))
     }
 
     #[inline(always)]
     fn interaction(&self, ray: &Ray, hit: &Hit) -> SurfaceInteraction<'_> {
-        let object = &self.objects[self.object_of[hit.prim as usize] as usize];
-        let primitive = hit.prim - object.first_primitive;
-        let point = match &object.plane {
-            Some(plane) => plane.point(Vec2::new(hit.u, hit.v)),
+        let met = Met::new(self, hit);
+        let light = met.object.first_light.map(|first| first + met.primitive);
+        let point = self.point(&met, ray, hit);
+        let mut si = SurfaceInteraction::new(point, ray.d, self.material(&met), light, hit.slot(), met);
+        if met.object.is_dressed {
+            self.dress(&mut si, &met, ray, hit);
+        }
+        si
+    }
+
+    #[inline(always)]
+    fn point(&self, met: &Met<'_>, ray: &Ray, hit: &Hit) -> SurfacePoint {
+        match &met.object.plane {
+            Some(plane) => plane.point(met.uv),
             None => {
                 let surface = self.bvh.surface(hit, ray.time);
-                SurfacePoint::new(&surface, ray, hit, object.smooth.as_ref(), primitive)
+                SurfacePoint::new(&surface, ray, hit, met.object.smooth.as_ref(), met.primitive)
             }
-        };
-        let met = Met { scene: self, object, primitive, uv: Vec2::new(hit.u, hit.v) };
-        let light = object.first_light.map(|first| first + primitive);
-        SurfaceInteraction::new(point, ray.d, &self.materials[object.material as usize], light, hit.slot(), met)
+        }
+    }
+
+    /// The material that a shape names.
+    #[inline]
+    fn material(&self, met: &Met<'_>) -> &MaterialDesc {
+        &self.materials[met.object.material as usize]
     }
 
     /// As [`intersect`](Self::intersect), with what a picture can tell of the surface besides.
     pub(crate) fn look(&self, ray: &Ray) -> Option<Look<'_>> {
-        let hit = self.bvh.intersect(ray)?;
-        let si = self.interaction(ray, &hit);
+        let (last, hit) = self.meet(ray)?;
+        let si = self.interaction(&last, &hit);
         let object = self.object_of[hit.prim as usize];
         // One more than the index; none wraps around to 0.
         let [object, material, instance] =
             [object, self.objects[object as usize].material, hit.instances[0]].map(|index| index.wrapping_add(1));
-        Some(Look { si, t: hit.t, uv: si.uv(), ids: Ids { object, material, instance } })
+        let t = last.o.distance(ray.o) + hit.t;
+        Some(Look { si, t, uv: si.uv(), ids: Ids { object, material, instance } })
     }
 
     /// Whether anything is in the way of the ray before its `t_max`.
     #[inline]
     pub fn occluded(&self, ray: &Ray) -> bool {
-        self.bvh.occluded(ray)
+        match self.holes {
+            Holes::None => self.bvh.occluded(ray),
+            Holes::Flat => self.bvh.occluded_where(ray, |hit| self.is_there(ray, hit)),
+            Holes::Round => self.meet(ray).is_some(),
+        }
+    }
+
+    /// Radiance that arrives from a light at a surface; irradiance if it has no size.
+    #[inline]
+    pub(crate) fn arriving(&self, light: &LightSample, si: &SurfaceInteraction<'_>) -> Spectrum {
+        match light.varies {
+            None if self.occluded(&si.shadow_ray(light)) => Spectrum::BLACK,
+            None => light.l,
+            Some(index) => {
+                let seen = self.intersect(&si.spawn_ray(light.wi)).filter(|seen| seen.light() == Some(index));
+                seen.map_or(Spectrum::BLACK, |seen| seen.le())
+            }
+        }
     }
 
     /// All that shines.
@@ -181,31 +269,6 @@ impl Scene {
     }
 }
 
-/// Which part of the scene a ray met, for what is asked only of some.
-#[derive(Clone, Copy, Debug)]
-pub(crate) struct Met<'s> {
-    scene: &'s Scene,
-    object: &'s Object,
-    primitive: u32,
-    /// Coordinates on the primitive.
-    uv: Vec2,
-}
-
-impl<'s> Met<'s> {
-    /// Coordinates on the shape: along the edges of a quad, longitude and latitude on a sphere, what a mesh says, or the weights
-    /// of a triangle's second and third vertex.
-    pub(crate) fn uv(&self, point: &SurfacePoint) -> Vec2 {
-        if point.is_round {
-            return sphere_uv(point.n);
-        }
-        self.object.uvs.as_ref().map_or(self.uv, |uvs| uvs.at(self.primitive, self.uv))
-    }
-
-    pub(crate) fn textures(&self) -> &'s [TextureDesc] {
-        &self.scene.textures
-    }
-}
-
 /// What a ray meets first.
 pub(crate) struct Look<'s> {
     pub(crate) si: SurfaceInteraction<'s>,
@@ -214,33 +277,6 @@ pub(crate) struct Look<'s> {
     /// The point on the shape, each in 0..1.
     pub(crate) uv: Vec2,
     pub(crate) ids: Ids,
-}
-
-/// The lights that primitives are by their materials; notes in the objects which these are.
-fn area_lights(
-    primitives: &[Primitive],
-    bvh: &Bvh,
-    object_of: &[u32],
-    objects: &mut [Object],
-    materials: &[MaterialDesc],
-) -> Vec<Light> {
-    let mut lights = Vec::new();
-    if !materials.iter().any(|material| matches!(material, MaterialDesc::Emissive(_))) {
-        return lights;
-    }
-    let slots = bvh.slots();
-    for (i, (primitive, &object)) in primitives.iter().zip(object_of).enumerate() {
-        let object = &mut objects[object as usize];
-        let MaterialDesc::Emissive(emissive) = &materials[object.material as usize] else {
-            continue;
-        };
-        let slot = slots.get(i).copied().unwrap_or(Slot::NONE);
-        if let Some(light) = AreaLight::new(primitive, slot, emissive.radiance.into(), emissive.two_sided) {
-            object.first_light.get_or_insert(lights.len() as u32);
-            lights.push(Light::Area(light));
-        }
-    }
-    lights
 }
 
 /// About how many rays the picture takes.
