@@ -35,7 +35,8 @@ fn the_gallery_renders() {
         run.ends_with(0);
         let page = fs::read_to_string(folder.join("index.md")).unwrap();
         let pictures = page.lines().filter(|line| line.starts_with("![")).count();
-        let files = fs::read_dir(&folder).unwrap().filter(|f| f.as_ref().unwrap().path().extension() == Some("jpg".as_ref()));
+        let files =
+            fs::read_dir(&folder).unwrap().filter(|f| f.as_ref().unwrap().path().extension() == Some("jpg".as_ref()));
         assert!(pictures > 10);
         assert_eq!(files.count(), pictures);
     }
