@@ -48,11 +48,30 @@ PICTURES = [
     Picture("depth-of-field", (900, 600), 320, 1.0, "Chess, through an aperture of six blades."),
     Picture("sun-sky", (900, 600), 144, -0.3, "A courtyard, lit by a computed sun and sky."),
     Picture("glass", (840, 520), 320, 0.3, "Glass, and the light that it gathers."),
-    Picture("materials", (1000, 720), 160, 0.6, "Every material; [scenes](../../scenes/README.md#materials) tells the numbers."),
-    Picture("metals", (960, 420), 192, 0.3, "Gold, silver, copper and aluminium; behind them iron, titanium, chromium and brass."),
+    Picture(
+        "materials",
+        (1000, 720),
+        160,
+        0.6,
+        "Every material; [scenes](../../scenes/README.md#materials) tells the numbers.",
+    ),
+    Picture(
+        "metals",
+        (960, 420),
+        160,
+        0.3,
+        "Gold, silver, copper and aluminium; behind them iron, titanium, chromium and brass.",
+    ),
     Picture("many-lights", (960, 480), 192, 0.7, "Six hundred small lamps."),
-    Picture("cornell-glass", (480, 480), 512, 0.6, "A mirror and a ball of glass in a box."),
-    Picture("cornell-blocks", (480, 480), 320, 1.2, "The Cornell box as it was measured.", "--view agx --contrast 1.2 --white-balance 4300"),
+    Picture("cornell-glass", (480, 480), 384, 0.6, "A mirror and a ball of glass in a box."),
+    Picture(
+        "cornell-blocks",
+        (480, 480),
+        320,
+        1.9,
+        "The Cornell box as it was measured.",
+        "--view agx --contrast 1.05 --white-balance 4300",
+    ),
     Picture("roughness-conductor", (960, 270), 192, 0.5, "Copper, from a mirror to completely rough."),
     Picture("roughness-dielectric", (960, 270), 320, 1.0, "Glass, from polished to frosted."),
     Picture("roughness-matte", (960, 270), 128, 0.5, "What is matte: lambertian, rougher, and cloth."),
@@ -76,7 +95,19 @@ def render(picture: Picture, eyebeam: str, folder: Path, is_quick: bool) -> dict
         run([eyebeam, "render", scene, "-q", "--strict", "-o", linear, "--stats", stats, "-r", size, "--spp", str(spp)])
         file = folder / f"{picture.scene}.jpg"
         for quality in QUALITIES:
-            run([eyebeam, "develop", linear, "-q", "-o", str(file), "--quality", str(quality), *picture.options().split()])
+            run(
+                [
+                    eyebeam,
+                    "develop",
+                    linear,
+                    "-q",
+                    "-o",
+                    str(file),
+                    "--quality",
+                    str(quality),
+                    *picture.options().split(),
+                ]
+            )
             if file.stat().st_size <= LARGEST:
                 break
         measured = json.loads(Path(stats).read_text())

@@ -99,6 +99,13 @@ def joined(meshes: Sequence[Mesh]) -> Mesh:
     return result
 
 
+def inside_out(mesh: Mesh) -> Mesh:
+    """With its outside where its inside was."""
+    return Mesh(
+        mesh.vertices, [(-x, -y, -z) for x, y, z in mesh.normals], mesh.uvs, [(a, c, b) for a, b, c in mesh.triangles]
+    )
+
+
 def grid(points: Sequence[Sequence[tuple[Vector, Vector, tuple[float, float]]]]) -> Mesh:
     """Rows of points, each with its normal and texture coordinates. Along a row × to the next row points inwards."""
     width = len(points[0])
@@ -185,14 +192,18 @@ def lathe(outline: Outline, segments: int = 48, core: tuple[float, float] = (0.0
         quarter = segments // 4
         sides = ((1, 1), (-1, 1), (-1, -1), (1, -1))
         columns = [
-            ((i + j / quarter) / 4, x * core[0], z * core[1]) for i, (x, z) in enumerate(sides) for j in range(quarter + 1)
+            ((i + j / quarter) / 4, x * core[0], z * core[1])
+            for i, (x, z) in enumerate(sides)
+            for j in range(quarter + 1)
         ]
         columns.append((1.0, *core))
     turned = [(u, *cos_sin(360 * u), x, z) for u, x, z in columns]
-    mesh = grid([
-        [((r * c + x, y, r * s + z), (nr * c, ny, nr * s), (u, v)) for u, c, s, x, z in turned]
-        for (r, y, nr, ny), v in zip(outline, shares(outline))
-    ])
+    mesh = grid(
+        [
+            [((r * c + x, y, r * s + z), (nr * c, ny, nr * s), (u, v)) for u, c, s, x, z in turned]
+            for (r, y, nr, ny), v in zip(outline, shares(outline))
+        ]
+    )
     if core != (0.0, 0.0):
         for row, is_end in ((0, False), (len(outline) - 1, True)):
             if outline[row][0] == 0:
@@ -204,10 +215,12 @@ def lathe(outline: Outline, segments: int = 48, core: tuple[float, float] = (0.0
 
 def pulled(outline: Outline, z0: float, z1: float) -> Mesh:
     """An outline in x and y, pulled along z; what is to its right is outside."""
-    return grid([
-        [((x, y, z), (nx, ny, 0.0), (u, v)) for u, z in ((0.0, z0), (1.0, z1))]
-        for (x, y, nx, ny), v in zip(outline, shares(outline))
-    ])
+    return grid(
+        [
+            [((x, y, z), (nx, ny, 0.0), (u, v)) for u, z in ((0.0, z0), (1.0, z1))]
+            for (x, y, nx, ny), v in zip(outline, shares(outline))
+        ]
+    )
 
 
 def surface(place: Callable[[float, float], Vector], columns: int, rows: int) -> Mesh:
@@ -257,7 +270,8 @@ def rounded_box(size: Vector, radius: float, steps: int = 3) -> Mesh:
     mesh = lathe(outline, 4 * steps, (size[0] / 2 - radius, size[2] / 2 - radius))
     x, y, z = size
     mesh.uvs = [
-        (p[2] / z + 0.5, p[1] / y + 0.5) if abs(n[0]) > max(abs(n[1]), abs(n[2]))
+        (p[2] / z + 0.5, p[1] / y + 0.5)
+        if abs(n[0]) > max(abs(n[1]), abs(n[2]))
         else (p[0] / x + 0.5, (p[2] / z if abs(n[1]) > abs(n[2]) else p[1] / y) + 0.5)
         for p, n in zip(mesh.vertices, mesh.normals)
     ]
@@ -289,6 +303,15 @@ def _bar(start: tuple[float, float], end: tuple[float, float], width: float) -> 
     length = math.hypot(end[0] - start[0], end[1] - start[1])
     dx, dy = (end[0] - start[0]) / length, (end[1] - start[1]) / length
     points = []
-    for along, across in ((0, 0), (1, -1), (length / width - 1, -1), (length / width, 0), (length / width - 1, 1), (1, 1)):
-        points.append((start[0] + (along * dx - across * dy) * width, start[1] + (along * dy + across * dx) * width, 0.0))
+    for along, across in (
+        (0, 0),
+        (1, -1),
+        (length / width - 1, -1),
+        (length / width, 0),
+        (length / width - 1, 1),
+        (1, 1),
+    ):
+        points.append(
+            (start[0] + (along * dx - across * dy) * width, start[1] + (along * dy + across * dx) * width, 0.0)
+        )
     return Mesh(points, [(0.0, 0.0, 1.0)] * 6, [(0.0, 0.0)] * 6, [(0, k, k + 1) for k in range(1, 5)])
