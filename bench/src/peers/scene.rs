@@ -162,7 +162,7 @@ impl From<Material> for MaterialDesc {
                 ..Conductor::default()
             }),
             Material::Dielectric { ior, alpha } => {
-                Self::Dielectric(Dielectric { eta: ior, roughness: alpha.sqrt().into() })
+                Self::Dielectric(Dielectric { eta: ior, roughness: alpha.sqrt().into(), ..Dielectric::default() })
             }
         }
     }

@@ -8,7 +8,7 @@ use crate::light::{LightSample, Target};
 use crate::material::{Bsdf, BsdfSample, MaterialDesc};
 use crate::math::{Frame, renormalize};
 use crate::sampler::Sampler;
-use crate::scene::Met;
+use crate::scene::{Dress, Met};
 use crate::shape::SurfacePoint;
 use crate::texture::Textures;
 
@@ -24,6 +24,8 @@ pub struct SurfaceInteraction<'s> {
     wo_world: Vec3,
     /// The same; local.
     wo: Vec3,
+    /// How the point moves with the first coordinate on the shape, if anything asks for that.
+    along_u: Vec3,
     material: &'s MaterialDesc,
     light: Option<u32>,
     on: Slot,
@@ -36,13 +38,14 @@ impl<'s> SurfaceInteraction<'s> {
     pub(crate) fn new(
         point: SurfacePoint,
         d: Vec3,
-        material: &'s MaterialDesc,
+        dress: &Dress<'s>,
         light: Option<u32>,
         on: Slot,
         met: Met<'s>,
     ) -> Self {
-        let frame = Frame::from_z(point.ns);
-        Self { point, frame, wo_world: -d, wo: frame.to_local(-d), material, light, on, met }
+        let (point, frame) = (point.with_ns(dress.ns), Frame::from_z(dress.ns));
+        let (wo_world, wo) = (-d, frame.to_local(-d));
+        Self { point, frame, wo_world, wo, along_u: dress.along_u, material: dress.material, light, on, met }
     }
 
     /// Where the surface was met.
@@ -61,18 +64,6 @@ impl<'s> SurfaceInteraction<'s> {
     #[inline]
     pub fn le(&self) -> Spectrum {
         self.material.le(self.wo, self)
-    }
-
-    /// Gives it another material.
-    pub(crate) fn wear(&mut self, material: &'s MaterialDesc) {
-        self.material = material;
-    }
-
-    /// Gives it another shading normal, and a direction that the x axis of materials follows.
-    pub(crate) fn turn(&mut self, ns: Vec3, x: Vec3) {
-        self.point.ns = ns;
-        self.frame = Frame::from_zx(ns, x);
-        self.wo = self.frame.to_local(self.wo_world);
     }
 
     /// How the surface scatters light here.
@@ -110,10 +101,34 @@ impl<'s> SurfaceInteraction<'s> {
         self.agrees(wi_world, sample.wi).then(|| (sample, self.spawn_ray(wi_world)))
     }
 
+    /// The number of the shape's material, which tells what is inside.
+    #[inline]
+    pub(crate) fn shape_material(&self) -> u32 {
+        self.met.material()
+    }
+
+    /// Whether the ray came from the side that the normal points to.
+    #[inline]
+    pub(crate) fn is_outside(&self) -> bool {
+        self.wo_world.dot(self.point.n) > 0.0
+    }
+
+    /// Whether the light of a sample comes through the surface.
+    #[inline]
+    pub(crate) fn is_passed(&self, sample: &BsdfSample) -> bool {
+        sample.wi.z * self.wo.z < 0.0
+    }
+
+    /// Whether light that arrives along `wi_world` comes through the surface.
+    #[inline]
+    pub(crate) fn is_passed_along(&self, wi_world: Vec3) -> bool {
+        (wi_world.dot(self.point.n) > 0.0) != self.is_outside()
+    }
+
     /// Whether the surface is smooth glass that the light of a sample comes through.
     #[inline]
     pub fn is_clear(&self, sample: &BsdfSample) -> bool {
-        sample.delta && sample.wi.z * self.wo.z < 0.0
+        sample.delta && self.is_passed(sample)
     }
 
     /// A ray that leaves along `w` and does not meet this surface again at its start.
@@ -147,6 +162,10 @@ impl<'s> SurfaceInteraction<'s> {
 }
 
 impl Textures for SurfaceInteraction<'_> {
+    fn u_axis(&self) -> Vec2 {
+        self.frame.to_local(self.along_u).truncate().try_normalize().unwrap_or(Vec2::X)
+    }
+
     #[inline(never)]
     fn color(&self, texture: u32) -> Spectrum {
         self.met.textures(&self.point).color(texture)

@@ -36,6 +36,7 @@ pub mod light;
 pub mod look;
 pub mod material;
 pub mod math;
+pub mod medium;
 pub mod names;
 pub mod render;
 pub mod sampler;

@@ -8,6 +8,7 @@ use glam::{DVec2, DVec3, UVec2, Vec3};
 use crate::color::Spectrum;
 use crate::film::{FirstHit, Ids};
 use crate::integrator::Unit;
+use crate::medium::Interior;
 use crate::sampler::Sampler;
 use crate::scene::{Look, Scene};
 
@@ -59,14 +60,17 @@ impl Shown {
         let mut si = look.si;
         // Share of the energy, so that glass is as bright from inside as from outside.
         let mut share = Spectrum::ONE;
+        let mut interior = Interior::new(scene);
         for _ in 0..most {
-            let bsdf = si.bsdf();
+            let bsdf = interior.bsdf(&si);
             if !bsdf.is_delta() {
                 break;
             }
             let (sample, ray) = si.scatter(&bsdf, sampler)?;
+            interior.pass(&si, &sample);
             share *= sample.weight * (sample.eta * sample.eta);
             si = scene.intersect(&ray)?;
+            interior.absorb(&mut share, ray.o, si.point().p);
         }
         Some(Self { albedo: share * si.bsdf().albedo(), ns: si.point().ns, n: si.point().n })
     }

@@ -14,6 +14,7 @@ use crate::integrator::{Integrator, Unit};
 use crate::interaction::SurfaceInteraction;
 use crate::light::Scattered;
 use crate::material::Bsdf;
+use crate::medium::Interior;
 use crate::sampler::Sampler;
 use crate::sampling::power_heuristic;
 use crate::scene::Scene;
@@ -42,6 +43,7 @@ impl Path {
         // Refraction squeezes light into another solid angle; that is no reason to end or keep a path.
         let mut eta_sq = 1.0;
         let mut scattered: Option<Scattered> = None;
+        let mut interior = Interior::new(scene);
         // Nothing but smooth glass so far, through which the background shows.
         let mut clear = true;
         for depth in 1..=self.max_depth {
@@ -50,6 +52,7 @@ impl Path {
             let Some(si) = scene.intersect(&ray) else {
                 return Seen::outside(l, beta * lights.le(ray.d, scattered), clear);
             };
+            interior.absorb(&mut beta, ray.o, si.point().p);
             // Its own light
             if let Some(light) = si.light() {
                 l += beta * si.le() * lights.weight(scattered, light, si.point().p);
@@ -58,9 +61,9 @@ impl Path {
                 break;
             }
             // A light's light on it
-            let bsdf = si.bsdf();
+            let bsdf = interior.bsdf(&si);
             if lights.is_sampled() && !bsdf.is_delta() {
-                l += beta * direct(scene, &si, &bsdf, sampler, rays);
+                l += beta * direct(scene, &si, &bsdf, &interior, sampler, rays);
             }
             // Where to next?
             let Some((sample, next)) = si.scatter(&bsdf, sampler) else {
@@ -69,6 +72,7 @@ impl Path {
             beta *= sample.weight;
             eta_sq *= sample.eta * sample.eta;
             clear &= si.is_clear(&sample);
+            interior.pass(&si, &sample);
             scattered = (!sample.delta).then(|| Scattered { p: si.point().p, n: si.point().ns, pdf: sample.pdf });
             ray = next;
             // Russian roulette
@@ -96,6 +100,7 @@ fn direct(
     scene: &Scene,
     si: &SurfaceInteraction<'_>,
     bsdf: &Bsdf,
+    interior: &Interior,
     sampler: &mut Sampler<'_>,
     rays: &mut u64,
 ) -> Spectrum {
@@ -108,7 +113,8 @@ fn direct(
         return Spectrum::BLACK;
     }
     *rays += 1;
-    let l = scene.arriving(&light, si);
+    let mut l = scene.arriving(&light, si);
+    interior.absorb_from(&mut l, &light, si);
     let weight = if light.delta { 1.0 } else { power_heuristic(light.pdf, pdf) };
     f * l * (weight / light.pdf)
 }

@@ -11,6 +11,7 @@ use eyebeam_bvh::Ray;
 use crate::color::Spectrum;
 use crate::film::{Seen, Tile};
 use crate::integrator::{Integrator, Unit};
+use crate::medium::Interior;
 use crate::sampler::Sampler;
 use crate::scene::Scene;
 
@@ -34,6 +35,7 @@ impl Weekend {
     fn ray_color(&self, scene: &Scene, mut ray: Ray, sampler: &mut Sampler<'_>, rays: &mut u64) -> Seen {
         let mut l = Spectrum::BLACK;
         let mut beta = Spectrum::ONE;
+        let mut interior = Interior::new(scene);
         // Nothing but smooth glass so far, through which the background shows.
         let mut clear = true;
         for _ in 0..self.max_depth {
@@ -41,12 +43,14 @@ impl Weekend {
             let Some(si) = scene.intersect(&ray) else {
                 return Seen::outside(l, beta * scene.lights().le(ray.d, None), clear);
             };
+            interior.absorb(&mut beta, ray.o, si.point().p);
             l += beta * si.le();
-            let Some((sample, scattered)) = si.scatter(&si.bsdf(), sampler) else {
+            let Some((sample, scattered)) = si.scatter(&interior.bsdf(&si), sampler) else {
                 break;
             };
             beta *= sample.weight;
             clear &= si.is_clear(&sample);
+            interior.pass(&si, &sample);
             ray = scattered;
         }
         Seen::surface(l)

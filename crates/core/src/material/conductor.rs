@@ -72,8 +72,8 @@ pub struct Conductor {
     /// by √(1 − 0.9 anisotropy), across it multiplied. 0 is the same all around.
     #[schemars(range(min = 0.0, max = 1.0))]
     pub anisotropy: f32,
-    /// Turns that direction about the normal, counter-clockwise as seen from outside, degrees, -360..360. At 0 it is the x
-    /// axis of the surface's frame, which follows from the normal alone.
+    /// Turns that direction about the normal, counter-clockwise as seen from outside, degrees, -360..360. At 0 it is that
+    /// of growing u: along the first edge of a quad, around a sphere, as the coordinates of a mesh say.
     #[schemars(range(min = -360.0, max = 360.0))]
     pub rotation: f32,
     /// Whether light that goes from facet to facet comes back, as it does; without, rough metal is too dark, as in renderers
@@ -145,7 +145,7 @@ impl Conductor {
         if self.anisotropy > 0.0 {
             facets.ggx = facets.ggx.stretched(self.anisotropy);
             let (sin, cos) = sin_cos_turns(self.rotation / 360.0);
-            facets.x = Vec2::new(cos, sin);
+            facets.x = textures.u_axis().rotate(Vec2::new(cos, sin));
         }
         facets
     }

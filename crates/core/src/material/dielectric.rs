@@ -22,16 +22,25 @@
 //! [material.frosted.dielectric]
 //! eta = 1.5
 //! roughness = 0.4
+//!
+//! [material.wine.dielectric]
+//! eta = 1.34
+//! transmittance = [0.6, 0.03, 0.05]
+//! transmittance_distance = 0.02
+//! priority = 1
 //! ```
+//!
+//! What is inside absorbs light and may overlap other fillings: see [`medium`](crate::medium).
 
 use glam::{Vec2, Vec3};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
-use crate::color::Spectrum;
+use crate::color::{Rgb, Spectrum};
 use crate::material::microfacet::{Ggx, reflect_at, refract_at, upright};
 use crate::material::{BsdfSample, Fresnel};
 use crate::math::{reflect, refract};
+use crate::medium::Filling;
 use crate::texture::{Scalar, Textures};
 use crate::validate::Checker;
 
@@ -47,11 +56,29 @@ pub struct Dielectric {
     /// 0.03 degrees: for glass below 0.04.
     #[schemars(range(min = 0.0, max = 1.0))]
     pub roughness: Scalar,
+    /// How strongly light is absorbed on its way inside, 1/m, 0..1e6 in each channel; 0 if nothing is said.
+    pub absorption: Option<Rgb>,
+    /// The colour of white light after `transmittance_distance` inside, 0..1 in each channel: another way to say absorption.
+    pub transmittance: Option<Rgb>,
+    /// That distance, metres, above 0.
+    #[schemars(range(min = 0.0))]
+    pub transmittance_distance: f32,
+    /// Where filled shapes overlap, the one of the higher priority is there, 0..1000. Above 0, `eta` is the index itself, not that over
+    /// what is around; at 0 the shape takes no part in this.
+    #[schemars(range(max = 1000))]
+    pub priority: u32,
 }
 
 impl Default for Dielectric {
     fn default() -> Self {
-        Self { eta: 1.5, roughness: 0.0.into() }
+        Self {
+            eta: 1.5,
+            roughness: 0.0.into(),
+            absorption: None,
+            transmittance: None,
+            transmittance_distance: 1.0,
+            priority: 0,
+        }
     }
 }
 
@@ -59,6 +86,38 @@ impl Dielectric {
     pub(crate) fn check(&self, c: &mut Checker) {
         c.in_range("eta", self.eta, 0.01, 100.0);
         self.roughness.check_range("roughness", 0.0, 1.0, c);
+        if let Some(bad) =
+            self.absorption.and_then(|rgb| rgb.0.into_iter().find(|a| !(0.0..=Self::DARKEST).contains(a)))
+        {
+            c.in_range("absorption", bad, 0.0, Self::DARKEST);
+        }
+        if let Some(transmittance) = self.transmittance {
+            c.albedo("transmittance", transmittance);
+        }
+        if self.absorption.is_some() && self.transmittance.is_some() {
+            let hint = "keep one of them".to_owned();
+            c.problem("transmittance", "`absorption` and `transmittance` both say what is absorbed", Some(hint));
+        }
+        c.positive("transmittance_distance", self.transmittance_distance);
+        if self.priority > Self::HIGHEST_PRIORITY {
+            let message = format!("`priority` must be at most {}, not {}", Self::HIGHEST_PRIORITY, self.priority);
+            c.problem("priority", message, None);
+        }
+    }
+
+    /// The strongest absorption, 1/m: a micrometre is opaque.
+    const DARKEST: f32 = 1e6;
+    const HIGHEST_PRIORITY: u32 = 1000;
+
+    /// What is inside.
+    pub(crate) fn filling(&self) -> Filling {
+        let from_color = |share: f32| -libm::logf(share) / self.transmittance_distance;
+        let absorption = match (self.absorption, self.transmittance) {
+            (Some(absorption), _) => absorption.0,
+            (None, Some(transmittance)) => transmittance.0.map(|share| from_color(share).clamp(0.0, Self::DARKEST)),
+            (None, None) => [0.0; 3],
+        };
+        Filling { sigma_a: Spectrum::from_rgb(absorption), eta: self.eta, priority: self.priority }
     }
 
     #[inline]
@@ -75,6 +134,11 @@ pub struct DielectricBsdf {
 }
 
 impl DielectricBsdf {
+    /// The same between other indices.
+    pub(crate) fn with_eta(self, eta: f32) -> Self {
+        Self { eta, ..self }
+    }
+
     /// The refracted lobe is as narrow as the facets' slopes and the bend at each are small.
     #[inline]
     pub(crate) fn is_delta(&self) -> bool {
@@ -157,7 +221,7 @@ mod tests {
     use crate::texture::NoTextures;
 
     fn glass(eta: f32, roughness: f32) -> DielectricBsdf {
-        Dielectric { eta, roughness: roughness.into() }.bsdf(&NoTextures)
+        Dielectric { eta, roughness: roughness.into(), ..Dielectric::default() }.bsdf(&NoTextures)
     }
 
     fn direction(degrees: f32) -> Vec3 {

@@ -152,7 +152,7 @@ impl MaterialDesc {
             Self::Dielectric(m) => Bsdf::Dielectric(m.bsdf(textures)),
             Self::ThinDielectric(m) => Bsdf::ThinDielectric(m.bsdf(textures)),
             Self::Emissive(m) => Bsdf::Lambertian(m.bsdf(textures)),
-            Self::Null(_) | Self::Mix(_) | Self::Mask(_) | Self::NormalMap(_) | Self::Bump(_) => Bsdf::Null(NullBsdf),
+            Self::Null(_) | Self::Mix(_) | Self::Mask(_) | Self::NormalMap(_) | Self::Bump(_) => Bsdf::NOTHING,
         }
     }
 
@@ -276,6 +276,17 @@ impl BsdfSample {
 }
 
 impl Bsdf {
+    /// That of a surface that is not there.
+    pub const NOTHING: Self = Self::Null(NullBsdf);
+
+    /// The same between other indices of refraction: that inside over that outside.
+    pub(crate) fn with_eta(self, eta: f32) -> Self {
+        match self {
+            Self::Dielectric(b) => Self::Dielectric(b.with_eta(eta)),
+            other => other,
+        }
+    }
+
     /// Draws `wi` for a `wo`; none if the light is absorbed.
     #[inline(always)]
     pub fn sample(&self, wo: Vec3, uc: f32, u: Vec2) -> Option<BsdfSample> {

@@ -6,7 +6,6 @@
 use eyebeam_bvh::{Hit, Ray};
 use glam::{Vec2, Vec3};
 
-use crate::interaction::SurfaceInteraction;
 use crate::material::{Bump, MaterialDesc};
 use crate::math::{Frame, GAMMA, mix, unit};
 use crate::scene::{Met, Scene};
@@ -23,6 +22,16 @@ pub(super) enum Holes {
     Flat,
     /// Spheres too, of which a tree knows only the first of two places where a ray meets them.
     Round,
+}
+
+/// How a surface is dressed where a ray has met it.
+pub(crate) struct Dress<'s> {
+    /// Unit shading normal.
+    pub(crate) ns: Vec3,
+    /// How the point moves with the first coordinate on the shape.
+    pub(crate) along_u: Vec3,
+    /// The material that scatters.
+    pub(crate) material: &'s MaterialDesc,
 }
 
 /// Numbers of a ray's meeting with a primitive, each uniform in [0, 1).
@@ -100,37 +109,23 @@ impl Scene {
 
     /// Finds of what a surface is made where a ray meets it, and how that lies on it.
     #[inline(never)]
-    pub(super) fn dress<'s>(&'s self, si: &mut SurfaceInteraction<'s>, met: &Met<'s>, ray: &Ray, hit: &Hit) {
-        let surface = self.bvh.surface(hit, ray.time);
-        let point = *si.point();
-        let tangents = met.tangents(&surface, &point);
+    pub(super) fn dress(&self, point: SurfacePoint, met: &Met<'_>, ray: &Ray, hit: &Hit) -> Dress<'_> {
+        let tangents = met.tangents(&self.bvh.surface(hit, ray.time), &point);
         let textures = met.textures(&point);
         let mut dice = Dice::new(ray, hit);
-        let mut material = self.material(met);
+        let (mut ns, mut material) = (point.ns, self.material(met));
         loop {
-            match material {
-                MaterialDesc::NormalMap(map) => {
-                    if let Some(n) = map.normal(&textures) {
-                        let frame = along(si.point().ns, tangents);
-                        si.turn(bent(frame.to_world(n), &point, ray.d), tangents[0]);
-                    }
-                }
-                MaterialDesc::Bump(bump) => {
-                    if let Some(ns) = relief(bump, &textures, si.point().ns, tangents) {
-                        si.turn(bent(ns, &point, ray.d), tangents[0]);
-                    }
-                }
-                _ => {}
-            }
+            let turned = match material {
+                MaterialDesc::NormalMap(map) => map.normal(&textures).map(|n| along(ns, tangents).to_world(n)),
+                MaterialDesc::Bump(bump) => relief(bump, &textures, ns, tangents),
+                _ => None,
+            };
+            ns = turned.map_or(ns, |turned| bent(turned, point.n, ray.d));
             match self.inner(material, &textures, &mut dice) {
                 Some(inner) => material = inner,
-                None => break,
+                None => return Dress { ns, along_u: tangents[0], material },
             }
         }
-        if material.is_anisotropic() {
-            si.turn(si.point().ns, tangents[0]);
-        }
-        si.wear(material);
     }
 }
 
@@ -141,10 +136,10 @@ fn along(ns: Vec3, [u, v]: [Vec3; 2]) -> Frame {
 }
 
 /// A shading normal that is on the side of the geometric one, and mirrors the view to above the surface.
-fn bent(ns: Vec3, point: &SurfacePoint, d: Vec3) -> Vec3 {
-    let ns = if ns.dot(point.n) < 0.0 { (ns - 2.0 * ns.dot(point.n) * point.n).normalize_or(point.n) } else { ns };
-    let side = 1.0_f32.copysign(-d.dot(point.n));
-    side * visible(side * ns, side * point.n, -d)
+fn bent(ns: Vec3, n: Vec3, d: Vec3) -> Vec3 {
+    let ns = if ns.dot(n) < 0.0 { (ns - 2.0 * ns.dot(n) * n).normalize_or(n) } else { ns };
+    let side = 1.0_f32.copysign(-d.dot(n));
+    side * visible(side * ns, side * n, -d)
 }
 
 /// The normal of a relief.

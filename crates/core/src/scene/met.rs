@@ -44,6 +44,12 @@ impl<'s> Met<'s> {
         }
     }
 
+    /// The number of the shape's material.
+    #[inline]
+    pub(crate) fn material(&self) -> u32 {
+        self.object.material
+    }
+
     /// The textures of the scene, at a point of the place.
     pub(crate) fn textures(&self, point: &SurfacePoint) -> TexturesAt<'s> {
         let textures: &[TextureDesc] = &self.scene.textures;

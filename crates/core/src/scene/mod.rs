@@ -7,10 +7,11 @@ mod met;
 pub use eyebeam_bvh::{Bvh, Ray, Slot};
 
 use eyebeam_bvh::{BuildError, Hit, Primitive, Quality};
-use glam::Vec2;
+use glam::{Vec2, Vec3};
 
 pub(crate) use self::met::Met;
 
+pub(crate) use self::dress::Dress;
 use self::dress::Holes;
 use crate::camera::{Camera, CameraDesc};
 use crate::color::Spectrum;
@@ -19,6 +20,7 @@ use crate::film::Ids;
 use crate::interaction::SurfaceInteraction;
 use crate::light::{EnvironmentSampling, LightSample, Lights};
 use crate::material::MaterialDesc;
+use crate::medium::Filling;
 use crate::names::Numbers;
 use crate::shape::{MeshUvs, Plane, Smooth, SurfacePoint};
 use crate::texture::{self, TextureDesc};
@@ -54,6 +56,8 @@ pub struct Scene {
     objects: Vec<Object>,
     materials: Vec<MaterialDesc>,
     textures: Vec<TextureDesc>,
+    /// What is inside shapes, by their material; empty if that matters nowhere.
+    fillings: Vec<Option<Filling>>,
     lights: Lights,
     camera: CameraDesc,
     holes: Holes,
@@ -171,7 +175,8 @@ impl Scene {
         let (environment, sun) = desc.environment.compile(options.environment);
         let lights = Lights::far(environment, desc.light.far().chain(sun).collect());
         let camera = desc.camera.clone();
-        let mut scene = Self { bvh, object_of, objects, materials, textures, lights, camera, holes };
+        let fillings = fillings(&materials);
+        let mut scene = Self { bvh, object_of, objects, materials, textures, fillings, lights, camera, holes };
         let mut near = scene.find_lamps(&primitives);
         near.extend(desc.light.near());
         scene.lights = scene.lights.with_near(near, desc.render.light_selection);
@@ -182,10 +187,15 @@ impl Scene {
     #[inline(always)]
     pub fn intersect(&self, ray: &Ray) -> Option<SurfaceInteraction<'_>> {
         if self.holes != Holes::None {
-            return self.meet(ray).map(|(ray, hit)| self.interaction(&ray, &hit));
+            return self.intersect_with_holes(ray);
         }
         let hit = self.bvh.intersect(ray)?;
         Some(self.interaction(ray, &hit))
+    }
+
+    #[inline(never)]
+    fn intersect_with_holes(&self, ray: &Ray) -> Option<SurfaceInteraction<'_>> {
+        self.meet(ray).map(|(ray, hit)| self.interaction(&ray, &hit))
     }
 
     #[inline(always)]
@@ -193,11 +203,12 @@ impl Scene {
         let met = Met::new(self, hit);
         let light = met.object.first_light.map(|first| first + met.primitive);
         let point = self.point(&met, ray, hit);
-        let mut si = SurfaceInteraction::new(point, ray.d, self.material(&met), light, hit.slot(), met);
-        if met.object.is_dressed {
-            self.dress(&mut si, &met, ray, hit);
-        }
-        si
+        let dress = if met.object.is_dressed {
+            self.dress(point, &met, ray, hit)
+        } else {
+            Dress { ns: point.ns, along_u: Vec3::ZERO, material: self.material(&met) }
+        };
+        SurfaceInteraction::new(point, ray.d, &dress, light, hit.slot(), met)
     }
 
     #[inline(always)]
@@ -245,11 +256,21 @@ impl Scene {
         match light.varies {
             None if self.occluded(&si.shadow_ray(light)) => Spectrum::BLACK,
             None => light.l,
-            Some(index) => {
-                let seen = self.intersect(&si.spawn_ray(light.wi)).filter(|seen| seen.light() == Some(index));
-                seen.map_or(Spectrum::BLACK, |seen| seen.le())
-            }
+            Some(index) => self.seen_of(index, &si.spawn_ray(light.wi)),
         }
+    }
+
+    /// Radiance along a ray of a light, if the ray meets that first.
+    #[inline(never)]
+    fn seen_of(&self, light: u32, ray: &Ray) -> Spectrum {
+        let si = self.intersect(ray).filter(|si| si.light() == Some(light));
+        si.map_or(Spectrum::BLACK, |si| si.le())
+    }
+
+    /// What is inside of shapes, by the numbers of their materials; empty if that matters nowhere.
+    #[inline]
+    pub(crate) fn fillings(&self) -> &[Option<Filling>] {
+        &self.fillings
     }
 
     /// All that shines.
@@ -277,6 +298,25 @@ pub(crate) struct Look<'s> {
     /// The point on the shape, each in 0..1.
     pub(crate) uv: Vec2,
     pub(crate) ids: Ids,
+}
+
+/// What is inside shapes of materials, if any absorbs light or takes the place of others.
+fn fillings(materials: &[MaterialDesc]) -> Vec<Option<Filling>> {
+    let mut fillings: Vec<_> = (0..materials.len() as u32).map(|index| filling(materials, index)).collect();
+    if fillings.iter().flatten().all(|filling| filling.priority == 0 && filling.sigma_a.is_black()) {
+        fillings.clear();
+    }
+    fillings
+}
+
+/// What is inside shapes of a material by its number, itself or one of its parts.
+fn filling(materials: &[MaterialDesc], index: u32) -> Option<Filling> {
+    let material = materials.get(index as usize)?;
+    let mut parts = material.clone();
+    match material {
+        MaterialDesc::Dielectric(glass) => Some(glass.filling()),
+        _ => parts.parts().into_iter().find_map(|(_, name)| filling(materials, name?.index())),
+    }
 }
 
 /// About how many rays the picture takes.

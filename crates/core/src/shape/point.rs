@@ -48,6 +48,12 @@ impl SurfacePoint {
         Self { ns, lift, clearance, ..self }
     }
 
+    /// The same with another shading normal.
+    #[inline]
+    pub(crate) fn with_ns(self, ns: Vec3) -> Self {
+        Self { ns, ..self }
+    }
+
     /// Where a ray along `w` starts, so that it does not meet this surface again. `viewer` is a direction to the side that
     /// the point was seen from.
     #[inline]

@@ -66,10 +66,15 @@ pub struct TexturePoint {
     pub p: Vec3,
 }
 
-/// What materials ask for the colours that they do not hold themselves.
+/// What materials ask for what they do not hold themselves: colours, and how coordinates lie on the shape.
 pub trait Textures {
     /// The colour of a texture at the point where the material is.
     fn color(&self, texture: u32) -> Spectrum;
+
+    /// The unit direction in the plane of the surface, in the material's frame, in which the first coordinate on the shape grows.
+    fn u_axis(&self) -> Vec2 {
+        Vec2::X
+    }
 }
 
 /// There are none: every name is black.

@@ -102,14 +102,15 @@ fn lamps() -> SceneDesc {
 /// Frosted glass and facets of metal: lobes that both ways find.
 fn frosted() -> SceneDesc {
     let mut desc = still_life(EnvironmentDesc::default());
-    let frosted = |roughness| MaterialDesc::Dielectric(Dielectric { eta: 1.5, roughness });
+    let frosted =
+        |roughness: f32| MaterialDesc::Dielectric(Dielectric { roughness: roughness.into(), ..Dielectric::default() });
     let copper =
         Conductor { reflectance: Some(Rgb([0.9, 0.6, 0.4]).into()), roughness: 0.6.into(), ..Conductor::default() };
     let gold =
         Conductor { metal: Some(NamedMetal::Gold), roughness: 0.5.into(), anisotropy: 0.6, ..Conductor::default() };
     for (name, material) in [
         ("lamp", lamp(4.0)),
-        ("frosted", frosted(0.6.into())),
+        ("frosted", frosted(0.6)),
         ("copper", MaterialDesc::Conductor(copper)),
         ("gold", MaterialDesc::Conductor(gold)),
     ] {

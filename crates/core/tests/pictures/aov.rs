@@ -137,7 +137,7 @@ fn places_on_flat_shapes() {
 fn through_glass_and_mirrors() {
     let mut desc = ball();
     desc.environment = WHITE;
-    desc.material.insert("pane".to_owned(), MaterialDesc::Dielectric(Dielectric { eta: 1.0, roughness: 0.0.into() }));
+    desc.material.insert("pane".to_owned(), MaterialDesc::Dielectric(Dielectric { eta: 1.0, ..Dielectric::default() }));
     let mirror = Metal { albedo: Rgb([0.9, 0.5, 0.1]).into(), roughness: 0.0.into() };
     desc.material.insert("mirror".to_owned(), MaterialDesc::Metal(mirror));
     let (corner, u, v) = ([-9.0, -9.0, 3.0], [18.0, 0.0, 0.0], [0.0, 18.0, 0.0]);
@@ -229,7 +229,7 @@ fn alpha_is_coverage() {
 /// reflects all, which is no hole.
 #[test]
 fn the_background_shows_through_glass_and_not_in_mirrors() {
-    let glass = MaterialDesc::Dielectric(Dielectric { eta: 1.5, roughness: 0.0.into() });
+    let glass = MaterialDesc::Dielectric(Dielectric::default());
     let mut desc = scene(WHITE, glass, parallel());
     let (lo, hi) = ([-9.0, -9.0, -0.5], [9.0, 9.0, 0.5]);
     desc.shape.mesh.push(box_mesh(lo, hi));

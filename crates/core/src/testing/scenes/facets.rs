@@ -60,7 +60,7 @@ fn gold(roughness: f32, degrees: f64) -> KnownScene {
 
 /// From outside, or, beyond 90 degrees, from inside the glass.
 fn frosted(roughness: f32, degrees: f64) -> KnownScene {
-    let glass = Dielectric { eta: 1.5, roughness: roughness.into() };
+    let glass = Dielectric { roughness: roughness.into(), ..Dielectric::default() };
     let facets = Facets::new(roughness);
     let (angle, eta) = if degrees < 90.0 { (degrees, 1.5) } else { (180.0 - degrees, 1.0 / 1.5) };
     let expected = facets.radiance(angle, |wo, m| {

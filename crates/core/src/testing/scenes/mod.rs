@@ -10,6 +10,7 @@ mod lamps;
 mod room;
 mod sky;
 mod thin;
+mod worn;
 
 use std::num::NonZeroUsize;
 use std::ops::Range;
@@ -44,7 +45,7 @@ pub fn all() -> Vec<KnownScene> {
     /// Some of the numbers take a while to compute: once is enough.
     static ALL: OnceLock<Vec<KnownScene>> = OnceLock::new();
     let build = || {
-        let surfaces = [room::scenes(), glass::scenes(), thin::scenes(), facets::scenes()];
+        let surfaces = [room::scenes(), glass::scenes(), thin::scenes(), facets::scenes(), worn::scenes()];
         let lights = [lamps::scenes(), facing::scenes(), far::scenes(), sky::scenes()];
         [surfaces.concat(), lights.concat()].concat()
     };

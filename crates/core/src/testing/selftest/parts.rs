@@ -108,7 +108,11 @@ fn lobes() -> impl Iterator<Item = (&'static str, MaterialDesc, Reciprocal)> {
             Reciprocal::No,
         ),
         ("rough metal", MaterialDesc::Conductor(gold), Reciprocal::Yes),
-        ("rough glass", MaterialDesc::Dielectric(Dielectric { eta: 1.5, roughness: 0.5.into() }), Reciprocal::Yes),
+        (
+            "rough glass",
+            MaterialDesc::Dielectric(Dielectric { roughness: 0.5.into(), ..Dielectric::default() }),
+            Reciprocal::Yes,
+        ),
     ]
     .into_iter()
 }
