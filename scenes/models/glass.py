@@ -34,6 +34,12 @@ def goblet() -> Mesh:
     return lathe(curve(outside, 4) + curve(inside, 4), 56)
 
 
+def wine() -> Mesh:
+    """What is in it; it reaches a little into the glass."""
+    side = curve([(0.0, 0.757), (0.155, 0.79), (0.348, 0.988), (0.398, 1.16)], 5)
+    return lathe([*side, (0.398, 1.16, 0.0, 1.0), (0.0, 1.16, 0.0, 1.0)], 56)
+
+
 def tumbler() -> Mesh:
     """A heavy tumbler with a thick bottom."""
     outline = [(0, 0, 0), (0.33, 0, 0.05), (0.38, 0.92, 0.015), (0.345, 0.92, 0.015), (0.29, 0.2, 0.08), (0, 0.16, 0)]
@@ -116,6 +122,7 @@ def meshes() -> dict[str, Mesh]:
         "glass-bowl": bowl().moved(1.55, 0, 0.55),
         "glass-flask": flask().moved(-1.2, 0, -0.35),
         "glass-goblet": goblet().moved(0.35, 0, -0.55),
+        "glass-wine": wine().moved(0.35, 0, -0.55),
         "glass-tumbler": tumbler().moved(-0.3, 0, 0.75),
         **{f"marble-{name}": marble(name) for name in ("cat", "ribbon", "ribbon-edge", "leaf", "far")},
     }

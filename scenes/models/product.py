@@ -5,7 +5,6 @@ from __future__ import annotations
 from models.modelling import Mesh, corners, lathe, pulled, torus
 
 BOTTLE_CORE = (0.020, 0.009)
-LEVEL = 0.047
 
 
 def bottle_glass() -> Mesh:
@@ -14,19 +13,16 @@ def bottle_glass() -> Mesh:
     return lathe(outline, 48, BOTTLE_CORE)
 
 
-def bottle_liquid() -> Mesh:
-    """Where the liquid touches the glass, seen from the glass."""
-    return lathe(corners([(0, 0.013, 0), (0.0085, 0.013, 0.004), (0.0085, LEVEL, 0)], 6), 48, BOTTLE_CORE)
-
-
-def bottle_level() -> Mesh:
-    """The top of the liquid."""
-    return lathe([(0.0085, LEVEL, 0.0, 1.0), (0.0, LEVEL, 0.0, 1.0)], 48, BOTTLE_CORE)
-
-
 def bottle_air() -> Mesh:
-    """Where the air above the liquid touches the glass, seen from the glass."""
-    return lathe(corners([(0.0085, LEVEL, 0), (0.0085, 0.069, 0.006), (0, 0.069, 0)], 6), 48, BOTTLE_CORE)
+    """The hollow in it."""
+    outline = corners([(0, 0.013, 0), (0.0085, 0.013, 0.004), (0.0085, 0.069, 0.006), (0, 0.069, 0)], 6)
+    return lathe(outline, 48, BOTTLE_CORE)
+
+
+def bottle_liquid() -> Mesh:
+    """What fills the hollow for the most part; it reaches a little into the glass."""
+    outline = corners([(0, 0.0129, 0), (0.0086, 0.0129, 0.004), (0.0086, 0.047, 0), (0, 0.047, 0)], 6)
+    return lathe(outline, 48, BOTTLE_CORE)
 
 
 def bottle_collar() -> Mesh:
@@ -86,7 +82,6 @@ def meshes() -> dict[str, Mesh]:
         "bottle-collar": bottle_collar(),
         "bottle-emblem": bottle_emblem(),
         "bottle-glass": bottle_glass(),
-        "bottle-level": bottle_level(),
         "bottle-liquid": bottle_liquid(),
         "disc": disc(),
         "plinth": plinth(),
