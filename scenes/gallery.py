@@ -44,7 +44,7 @@ class Picture:
 PICTURES = [
     Picture("hero-glass", (960, 540), 400, 0.3, "Marbles on black acrylic, and lamps out of focus."),
     Picture("hero-product", (640, 800), 300, 0.3, "A bottle of perfume on marble, in the light of three softboxes."),
-    Picture("hero-interior", (720, 480), 400, 0.9, "A room on a late morning."),
+    Picture("hero-interior", (660, 440), 500, 0.45, "A room on a late morning."),
     Picture("depth-of-field", (900, 600), 320, 1.0, "Chess, through an aperture of six blades."),
     Picture("sun-sky", (900, 600), 144, -0.3, "A courtyard, lit by a computed sun and sky."),
     Picture("glass", (840, 520), 320, 0.3, "Glass, and the light that it gathers."),
