@@ -30,7 +30,7 @@ impl<'s> Met<'s> {
         if point.is_round {
             return sphere_uv(point.n);
         }
-        self.object.uvs.as_ref().map_or(self.uv, |uvs| uvs.at(self.primitive, self.uv))
+        self.object.vertices.as_ref().and_then(|v| v.uv(self.primitive, self.uv)).unwrap_or(self.uv)
     }
 
     /// How the point moves, in metres, with these coordinates; nothing where that is not known.
@@ -39,7 +39,7 @@ impl<'s> Met<'s> {
             Surface::Sphere(sphere) => sphere_tangents(point.n).map(|tangent| tangent * sphere.radius),
             Surface::Flat { edges, .. } => {
                 let edges = edges.map(|edge| edge.as_vec3());
-                self.object.uvs.as_ref().map_or(edges, |uvs| uvs.tangents(self.primitive, edges))
+                self.object.vertices.as_ref().and_then(|v| v.tangents(self.primitive, edges)).unwrap_or(edges)
             }
         }
     }
@@ -53,6 +53,13 @@ impl<'s> Met<'s> {
     /// The textures of the scene, at a point of the place.
     pub(crate) fn textures(&self, point: &SurfacePoint) -> TexturesAt<'s> {
         let textures: &[TextureDesc] = &self.scene.textures;
-        TexturesAt { textures, at: TexturePoint { uv: self.uv(point), p: point.p } }
+        let at = TexturePoint {
+            uv: self.uv(point),
+            p: point.p,
+            p_object: point.p - self.object.origin,
+            n: point.ns,
+            vertex_color: self.object.vertices.as_ref().and_then(|v| v.color(self.primitive, self.uv)),
+        };
+        TexturesAt { textures, at }
     }
 }

@@ -22,7 +22,7 @@ use crate::light::{EnvironmentSampling, LightSample, Lights};
 use crate::material::MaterialDesc;
 use crate::medium::Filling;
 use crate::names::Numbers;
-use crate::shape::{MeshUvs, Plane, Smooth, SurfacePoint};
+use crate::shape::{Plane, Smooth, SurfacePoint, VertexData};
 use crate::texture::{self, TextureDesc};
 use crate::validate::Problem;
 
@@ -73,8 +73,10 @@ struct Object {
     smooth: Option<Smooth>,
     /// If it is a single quad.
     plane: Option<Plane>,
-    /// Coordinates for textures, if the mesh has them.
-    uvs: Option<MeshUvs>,
+    /// What vertices say to textures, if they do.
+    vertices: Option<VertexData>,
+    /// Where the shape's own coordinates begin.
+    origin: Vec3,
     /// Whether it is a sphere.
     is_round: bool,
     /// Whether its material is made of others or follows the coordinates.
@@ -157,7 +159,8 @@ impl Scene {
                 first_light: None,
                 smooth: shape.smooth(),
                 plane: shape.plane(),
-                uvs: shape.uvs(),
+                vertices: shape.vertex_data(),
+                origin: shape.origin(),
                 is_round: matches!(primitives.get(first), Some(Primitive::Sphere(_))),
                 is_dressed: wear.is_dressed,
                 has_holes: wear.has_holes,

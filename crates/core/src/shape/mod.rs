@@ -10,13 +10,13 @@ mod smooth;
 mod sphere;
 
 use eyebeam_bvh::{Bvh, Hit, Primitive, Ray, Surface};
-use glam::Vec2;
+use glam::{Vec2, Vec3};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 use crate::validate::Checker;
 
-pub(crate) use mesh::MeshUvs;
+pub(crate) use mesh::VertexData;
 pub use mesh::{MeshData, MeshDesc};
 pub(crate) use plane::Plane;
 pub use point::SurfacePoint;
@@ -74,9 +74,14 @@ pub(crate) trait ShapeDesc {
         None
     }
 
-    /// Coordinates for textures that it says itself.
-    fn uvs(&self) -> Option<MeshUvs> {
+    /// What its vertices say to textures.
+    fn vertex_data(&self) -> Option<VertexData> {
         None
+    }
+
+    /// Where its own coordinates begin, in the world.
+    fn origin(&self) -> Vec3 {
+        Vec3::ZERO
     }
 
     /// Its plane, if it is one.

@@ -56,6 +56,10 @@ impl ShapeDesc for QuadDesc {
         Some(Plane::new(corner, [u, v]))
     }
 
+    fn origin(&self) -> Vec3 {
+        self.corner.into()
+    }
+
     fn material(&self) -> Option<&str> {
         self.material.as_deref()
     }

@@ -42,6 +42,10 @@ impl ShapeDesc for SphereDesc {
         primitives.push(Primitive::Sphere(Sphere { center: Vec3::from(self.center), radius: self.radius }));
     }
 
+    fn origin(&self) -> Vec3 {
+        self.center.into()
+    }
+
     fn material(&self) -> Option<&str> {
         self.material.as_deref()
     }

@@ -10,3 +10,4 @@ mod furnace;
 mod lamps;
 mod offset;
 mod setup;
+mod textures;
