@@ -22,7 +22,6 @@ SCENES = Path(__file__).resolve().parent
 ROOT = SCENES.parent
 LARGEST = 250_000  # bytes of a picture
 QUALITIES = (93, 90, 86, 80, 72, 60)
-LOOK = "--view agx --contrast 1.3 --saturation 1.2"
 
 
 @dataclass(frozen=True)
@@ -34,11 +33,11 @@ class Picture:
     spp: int
     exposure: float
     caption: str
-    look: str = LOOK
+    look: str = ""
 
     def options(self) -> str:
         """The options of its look."""
-        return f"{self.look} --exposure {self.exposure}"
+        return f"{self.look} --exposure {self.exposure}".strip()
 
 
 PICTURES = [
@@ -47,7 +46,7 @@ PICTURES = [
     Picture("hero-interior", (660, 440), 500, 0.45, "A room on a late morning."),
     Picture("depth-of-field", (900, 600), 320, 1.0, "Chess, through an aperture of six blades."),
     Picture("sun-sky", (900, 600), 144, -0.3, "A courtyard, lit by a computed sun and sky."),
-    Picture("glass", (840, 520), 320, 0.3, "Glass, and the light that it gathers."),
+    Picture("glass", (840, 520), 320, 0.0, "Glass, and the light that it gathers."),
     Picture(
         "materials",
         (1000, 720),
@@ -70,8 +69,9 @@ PICTURES = [
         320,
         1.9,
         "The Cornell box as it was measured.",
-        "--view agx --contrast 1.05 --white-balance 4300",
+        "--view agx-base --contrast 1.05 --white-balance 4300",
     ),
+    Picture("layers", (960, 217), 192, 0.3, "Coats, fuzz and thin films."),
     Picture("roughness-conductor", (960, 270), 192, 0.5, "Copper, from a mirror to completely rough."),
     Picture("roughness-dielectric", (960, 270), 320, 1.0, "Glass, from polished to frosted."),
     Picture("roughness-matte", (960, 270), 128, 0.5, "What is matte: lambertian, rougher, and cloth."),
