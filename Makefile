@@ -107,7 +107,7 @@ pictures:
 	cargo run --release -- render scenes/roughness.toml -o docs/pictures/roughness.png --spp 512 -r 800x300
 	cargo run --release -- render scenes/two-spheres.toml -o docs/pictures/two-spheres.png --spp 1024
 
-# The pictures of the gallery (docs/gallery): half an hour on two cores.
+# The pictures of the gallery (docs/gallery): less than half an hour on two cores.
 .PHONY: gallery meshes
 gallery:
 	cargo build --release --locked

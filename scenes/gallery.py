@@ -41,16 +41,16 @@ class Picture:
 
 
 PICTURES = [
-    Picture("hero-glass", (960, 540), 400, 0.3, "Marbles on black acrylic, and lamps out of focus."),
-    Picture("hero-product", (640, 800), 300, 0.3, "A bottle of perfume on marble, in the light of three softboxes."),
-    Picture("hero-interior", (660, 440), 500, 0.45, "A room on a late morning."),
+    Picture("hero-glass", (960, 540), 360, 0.3, "Marbles on black acrylic, and lamps out of focus."),
+    Picture("hero-product", (640, 800), 260, 0.3, "A bottle of perfume on marble, in the light of three softboxes."),
+    Picture("hero-interior", (660, 440), 450, 0.45, "A room on a late morning."),
     Picture("depth-of-field", (900, 600), 320, 1.0, "Chess, through an aperture of six blades."),
     Picture("sun-sky", (900, 600), 144, -0.3, "A courtyard, lit by a computed sun and sky."),
-    Picture("glass", (840, 520), 320, 0.0, "Glass, and the light that it gathers."),
+    Picture("glass", (840, 520), 280, 0.0, "Glass, and the light that it gathers."),
     Picture(
         "materials",
         (1000, 720),
-        160,
+        144,
         0.6,
         "Every material; [scenes](../../scenes/README.md#materials) tells the numbers.",
     ),
@@ -62,18 +62,18 @@ PICTURES = [
         "Gold, silver, copper and aluminium; behind them iron, titanium, chromium and brass.",
     ),
     Picture("many-lights", (960, 480), 192, 0.7, "Six hundred small lamps."),
-    Picture("cornell-glass", (480, 480), 384, 0.6, "A mirror and a ball of glass in a box."),
+    Picture("cornell-glass", (480, 480), 256, 0.6, "A mirror and a ball of glass in a box."),
     Picture(
         "cornell-blocks",
         (480, 480),
-        320,
+        256,
         1.9,
         "The Cornell box as it was measured.",
         "--view agx-base --contrast 1.05 --white-balance 4300",
     ),
     Picture("layers", (960, 217), 192, 0.3, "Coats, fuzz and thin films."),
     Picture("roughness-conductor", (960, 270), 192, 0.5, "Copper, from a mirror to completely rough."),
-    Picture("roughness-dielectric", (960, 270), 320, 1.0, "Glass, from polished to frosted."),
+    Picture("roughness-dielectric", (960, 270), 240, 1.0, "Glass, from polished to frosted."),
     Picture("roughness-matte", (960, 270), 128, 0.5, "What is matte: lambertian, rougher, and cloth."),
 ]
 
