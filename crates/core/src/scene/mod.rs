@@ -318,6 +318,7 @@ fn filling(materials: &[MaterialDesc], index: u32) -> Option<Filling> {
     let mut parts = material.clone();
     match material {
         MaterialDesc::Dielectric(glass) => Some(glass.filling()),
+        MaterialDesc::Principled(layers) => layers.filling(),
         _ => parts.parts().into_iter().find_map(|(_, name)| filling(materials, name?.index())),
     }
 }
