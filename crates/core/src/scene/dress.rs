@@ -70,11 +70,11 @@ impl Scene {
 
     /// Whether there is anything of a surface where a ray meets it.
     pub(super) fn is_there(&self, ray: &Ray, hit: &Hit) -> bool {
-        let met = Met::new(self, hit);
+        let met = Met::new(self, hit, ray.time);
         if !met.object.has_holes {
             return true;
         }
-        let textures = met.textures(&self.point(&met, ray, hit));
+        let textures = met.textures(&met.point(ray, hit));
         let mut dice = Dice::new(ray, hit);
         let mut opacity = 1.0;
         let mut material = self.material(&met);
@@ -96,12 +96,12 @@ impl Scene {
     pub(super) fn meet(&self, ray: &Ray) -> Option<(Ray, Hit)> {
         let mut ray = *ray;
         loop {
-            let is_round = |hit: &Hit| self.objects[self.object_of[hit.prim as usize] as usize].is_round;
+            let is_round = |hit: &Hit| self.objects[self.object_of(hit) as usize].is_round;
             let hit = self.bvh.intersect_where(&ray, |hit| is_round(hit) || self.is_there(&ray, hit))?;
             if !is_round(&hit) || self.is_there(&ray, &hit) {
                 return Some((ray, hit));
             }
-            let point = self.point(&Met::new(self, &hit), &ray, &hit);
+            let point = Met::new(self, &hit, ray.time).point(&ray, &hit);
             let t_max = ray.t_max - hit.t;
             ray = Ray { t_max, time: ray.time, ..Ray::new(point.ray_origin(-ray.d, ray.d), ray.d) };
         }

@@ -19,7 +19,8 @@ use glam::{DVec3, Vec2, Vec3};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
-use crate::array::arrays;
+use crate::array::{arrays, optional_array};
+use crate::motion::{MotionDesc, MotionKey};
 use crate::shape::{ShapeDesc, Smooth};
 use crate::validate::Checker;
 
@@ -45,6 +46,12 @@ pub struct MeshDesc {
     pub uvs: Vec<[f32; 2]>,
     /// Name of a material; grey matte if absent.
     pub material: Option<String>,
+    /// Where it is at some times; it rests if absent.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    pub motion: Vec<MotionKey>,
+    /// About what its `motion` turns it, and from where it grows, metres, where it is without motion; the middle of the box around it if absent.
+    #[serde(deserialize_with = "optional_array", skip_serializing_if = "Option::is_none")]
+    pub pivot: Option<[f32; 3]>,
     /// What is in the file, once a reader has loaded it.
     #[serde(skip)]
     pub data: Option<Arc<MeshData>>,
@@ -204,6 +211,16 @@ impl ShapeDesc for MeshDesc {
 
     fn material(&self) -> Option<&str> {
         self.material.as_deref()
+    }
+
+    fn motion(&self) -> MotionDesc<'_> {
+        MotionDesc { keys: &self.motion, pivot: self.pivot }
+    }
+
+    fn middle(&self) -> [f32; 3] {
+        let vertices = || self.mesh().vertices.iter().map(|&v| Vec3::from(v));
+        let [lo, hi] = [Vec3::min, Vec3::max].map(|bound| vertices().reduce(bound).unwrap_or_default());
+        (0.5 * (lo + hi)).to_array()
     }
 
     fn smooth(&self) -> Option<Smooth> {

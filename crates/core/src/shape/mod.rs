@@ -3,6 +3,7 @@
 //! Each file holds a shape as a scene states it, the primitives that rays meet, and the point and normal of a hit.
 
 mod mesh;
+mod moving;
 mod plane;
 mod point;
 mod quad;
@@ -14,6 +15,7 @@ use glam::Vec2;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
+use crate::motion::MotionDesc;
 use crate::validate::Checker;
 
 pub(crate) use mesh::MeshUvs;
@@ -68,6 +70,12 @@ pub(crate) trait ShapeDesc {
 
     /// The name of its material.
     fn material(&self) -> Option<&str>;
+
+    /// How it moves.
+    fn motion(&self) -> MotionDesc<'_>;
+
+    /// What it turns about if it says nothing else, metres.
+    fn middle(&self) -> [f32; 3];
 
     /// Normals that make it look round.
     fn smooth(&self) -> Option<Smooth> {
