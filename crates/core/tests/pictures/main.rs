@@ -8,5 +8,6 @@ mod determinism;
 mod error;
 mod furnace;
 mod lamps;
+mod motion;
 mod offset;
 mod setup;
