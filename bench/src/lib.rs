@@ -6,4 +6,5 @@ pub mod measure;
 pub mod peers;
 pub mod strategies;
 pub mod textbook;
+pub mod textures;
 mod vec3;

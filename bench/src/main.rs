@@ -12,6 +12,7 @@ use eyebeam_bench::measure::{median, read_scene, render, samples, shrink, thread
 use eyebeam_bench::peers::{self, Peer};
 use eyebeam_bench::strategies;
 use eyebeam_bench::textbook::Textbook;
+use eyebeam_bench::textures;
 use eyebeam_core::desc::SceneDesc;
 use eyebeam_core::scene::Scene;
 
@@ -41,6 +42,8 @@ enum Command {
     Kernel(Options),
     /// What light sampling, Sobol points, the light tree and the choice of strategy are worth
     Strategies,
+    /// What a lookup of each kind of texture costs, and what filters of pictures are worth
+    Textures,
     /// A picture of a scene that several renderers are compared on (bench/peers)
     Peer(Peer),
 }
@@ -55,6 +58,7 @@ fn main() -> Result<(), Box<dyn Error>> {
             kernel::run(options, args.rounds as usize, embree.as_ref(), &mut stdout())
         }
         Command::Strategies => strategies::run(args.rounds as usize),
+        Command::Textures => textures::run(args.rounds as usize),
         Command::Peer(options) => peers::run(options, args.spp),
     }
 }

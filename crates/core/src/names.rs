@@ -80,15 +80,19 @@ pub(crate) struct Nesting<'d> {
     parts: BTreeMap<&'d str, Vec<String>>,
     /// Of those that are known not to lead too deep or back to themselves.
     depth: BTreeMap<&'d str, usize>,
+    /// How many these are made of, themselves counted, and each as often as it is named.
+    count: BTreeMap<&'d str, usize>,
 }
 
 impl<'d> Nesting<'d> {
     /// The most things within each other.
     const MOST: usize = 16;
+    /// The most that one is made of: all of them may be looked at for each point.
+    const MOST_PARTS: usize = 1000;
 
     /// `things` by their names, with the names of their parts.
     pub(crate) fn new(words: [&'static str; 3], things: impl Iterator<Item = (&'d str, Vec<String>)>) -> Self {
-        Self { words, parts: things.collect(), depth: BTreeMap::new() }
+        Self { words, parts: things.collect(), depth: BTreeMap::new(), count: BTreeMap::new() }
     }
 
     /// Notes names, of values below the key of a kind, that nothing has.
@@ -105,9 +109,15 @@ impl<'d> Nesting<'d> {
 
     /// Notes that one of them, of a kind, is made of itself, or of too many within each other.
     pub(crate) fn check(&mut self, name: &str, kind: &str, c: &mut Checker) {
-        let Err(way) = self.depth(&mut Vec::new(), name) else { return };
-        let Some((last, before)) = way.split_last() else { return };
         let [one, many, _] = self.words;
+        let Err(way) = self.depth(&mut Vec::new(), name) else {
+            if self.count.get(name).is_some_and(|&count| count > Self::MOST_PARTS) {
+                let hint = format!("at most {} are allowed, each counted as often as it is named", Self::MOST_PARTS);
+                c.problem(kind, format!("the {one} is made of too many {many}"), Some(hint));
+            }
+            return;
+        };
+        let Some((last, before)) = way.split_last() else { return };
         if before.first() == Some(last) {
             let message = format!("the {one} is made of itself: {}", way.join(" > "));
             c.problem(kind, message, Some("give one of them something else instead".to_owned()));
@@ -129,11 +139,13 @@ impl<'d> Nesting<'d> {
         if comes_back || way.len() > Self::MOST {
             return Err(way.clone());
         }
-        let mut below = 0;
+        let (mut below, mut count) = (0, 1_usize);
         for part in parts.clone() {
             below = below.max(self.depth(way, &part)?);
+            count = count.saturating_add(self.count.get(part.as_str()).copied().unwrap_or(0));
         }
         way.pop();
+        self.count.insert(name, count);
         self.depth.insert(name, below + 1);
         Ok(below + 1)
     }

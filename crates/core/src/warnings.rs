@@ -4,7 +4,8 @@ use crate::color::Rgb;
 use crate::desc::SceneDesc;
 use crate::integrator::IntegratorKind;
 use crate::light::{EnvironmentDesc, LightsDesc};
-use crate::material::MaterialDesc;
+use crate::material::{MaterialDesc, NormalMap};
+use crate::texture::{Color, TextureDesc};
 use crate::validate::{Checker, Problem};
 
 impl SceneDesc {
@@ -19,8 +20,24 @@ impl SceneDesc {
                 c.within(name, |c| c.within("emissive", |c| c.problem("radiance", "this lamp gives no light", None)));
             }
         });
+        c.within("material", |c| self.warn_of_normal_maps(c));
         c.within("shape", |c| c.within("mesh", |c| self.warn_of_meshes(c)));
         c.into_problems()
+    }
+
+    /// Pictures of normals that are taken for colours.
+    fn warn_of_normal_maps(&self, c: &mut Checker) {
+        for (name, material) in &self.material {
+            let MaterialDesc::NormalMap(NormalMap { map: Color::Texture(map), .. }) = material else { continue };
+            if let Some(TextureDesc::Image(image)) = self.texture.get(map.name())
+                && image.is_srgb()
+            {
+                let message =
+                    format!("the normals in `{}` are read as sRGB colours, and point in wrong directions", image.file);
+                let hint = format!("say encoding = \"linear\" in [texture.{}.image]", map.name());
+                c.within(name, |c| c.within("normal-map", |c| c.problem("map", message, Some(hint))));
+            }
+        }
     }
 
     /// Whether a material, or one that it is made of, is a lamp, and if so, whether that gives light.
@@ -136,7 +153,9 @@ mod tests {
     use crate::light::sky::SkyDesc;
     use crate::light::{Constant, DirectionalLight, ImageEnvironment, NoLight, PointLight};
     use crate::material::Emissive;
+    use crate::names::Name;
     use crate::shape::{MeshDesc, SphereDesc};
+    use crate::texture::{Encoding, ImageTexture, Pixels, Samples};
 
     const DARK: EnvironmentDesc = EnvironmentDesc::None(NoLight {});
 
@@ -215,6 +234,28 @@ mod tests {
             let desc = SceneDesc { environment: EnvironmentDesc::Image(map), ..SceneDesc::default() };
             assert_eq!(said(&desc).is_empty(), is_fine, "{width} x {height}");
         }
+    }
+
+    #[test]
+    fn normals_are_no_colours() {
+        let said_of = |encoding, samples| {
+            let pixels = Pixels::new(1, 1, 3, samples).map(Arc::new);
+            let image = ImageTexture { encoding, ..ImageTexture::new("n.png", pixels) };
+            let of = Name::new("base");
+            let map = NormalMap { of, map: Color::Texture(Name::new("n")), strength: 1.0 };
+            let mut desc = SceneDesc::default();
+            desc.texture.insert("n".to_owned(), TextureDesc::Image(image));
+            desc.material.insert("base".to_owned(), MaterialDesc::default());
+            desc.material.insert("m".to_owned(), MaterialDesc::NormalMap(map));
+            said(&desc)
+        };
+        let warned = said_of(Encoding::Auto, Samples::Byte(vec![128, 128, 255]));
+        assert!(
+            warned[0].starts_with("material.m.normal-map.map: the normals in `n.png` are read as sRGB"),
+            "{warned:?}"
+        );
+        assert!(said_of(Encoding::Linear, Samples::Byte(vec![128, 128, 255])).is_empty());
+        assert!(said_of(Encoding::Auto, Samples::Float(vec![0.5, 0.5, 1.0])).is_empty());
     }
 
     #[test]

@@ -9,8 +9,14 @@ use eyebeam_io::image::{Bits, Encoding};
 #[command(next_help_heading = "Look of .png and .jpg (.exr and .hdr stay linear light)")]
 pub(crate) struct LookArgs {
     /// Curve from light to the screen
-    #[arg(long, default_value = "standard", value_parser = view())]
+    #[arg(long, default_value = View::FOR_PICTURES.name(), value_parser = view())]
     pub(crate) view: View,
+    /// Let the lens scatter this share of the light, which glows around what is bright; 0 is off, 0.2 is much
+    #[arg(long, value_name = "SHARE", default_value = "0", value_parser = bloom)]
+    pub(crate) bloom: f32,
+    /// Darken the corners as a lens of this field of view does, degrees from the bottom to the top; 0 is off
+    #[arg(long, value_name = "DEG", default_value = "0", value_parser = vignette)]
+    pub(crate) vignette: f32,
     /// Make it brighter by 2 to the power of EV; auto makes it as bright as middle grey
     #[arg(long, value_name = "EV", default_value = "0", allow_negative_numbers = true)]
     pub(crate) exposure: Exposure,
@@ -42,8 +48,9 @@ const FILES: &str = "Files";
 
 impl LookArgs {
     pub(crate) fn encoding(&self) -> Encoding {
-        let Self { view, exposure, white_balance, contrast, saturation, dither, bits, half, quality } = *self;
-        let look = Look { view, exposure, white_balance, contrast, saturation, dither };
+        let Self { view, bloom, vignette, exposure, white_balance, contrast, saturation, dither, .. } = *self;
+        let look = Look { view, bloom, vignette, exposure, white_balance, contrast, saturation, dither };
+        let Self { bits, half, quality, .. } = *self;
         Encoding { look, bits, half, quality }
     }
 }
@@ -61,12 +68,21 @@ fn about(view: View) -> &'static str {
         View::Filmic => "A soft shoulder on each channel",
         View::Aces => "Contrast and warm highlights as in cinemas",
         View::Agx => "Bright colours fade to white, as in photographs",
+        View::AgxBase => "The same without added contrast",
         View::Raw => "No curve: linear light, clipped at 1",
     }
 }
 
 fn bits() -> impl TypedValueParser<Value = Bits> {
     PossibleValuesParser::new(["8", "16"]).map(|bits| if bits == "16" { Bits::Sixteen } else { Bits::Eight })
+}
+
+fn bloom(text: &str) -> Result<f32, String> {
+    within(text, Look::BLOOM_RANGE)
+}
+
+fn vignette(text: &str) -> Result<f32, String> {
+    within(text, Look::VIGNETTE_RANGE)
 }
 
 fn white_balance(text: &str) -> Result<f32, String> {
@@ -98,6 +114,7 @@ mod tests {
             look: LookArgs,
         }
         let only: Only = clap::Parser::parse_from(["eyebeam"]);
-        assert_eq!(only.look.encoding(), Encoding::default());
+        let look = Look { view: View::FOR_PICTURES, ..Look::default() };
+        assert_eq!(only.look.encoding(), Encoding { look, ..Encoding::default() });
     }
 }

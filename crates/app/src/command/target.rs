@@ -41,6 +41,11 @@ impl Target {
         Ok(())
     }
 
+    /// The memory that the look's lens takes for each pixel, bytes.
+    pub(super) fn lens_bytes(&self) -> u64 {
+        if self.format.is_for_screens() { self.encoding.look.lens_bytes() } else { 0 }
+    }
+
     /// That a file of this name can be written.
     pub(super) fn check_writable(&self) -> Result<(), Error> {
         if is_standard(&self.path) { Ok(()) } else { Ok(check_writable(&self.path)?) }

@@ -27,6 +27,7 @@ fn a_developed_film_is_the_rendered_picture() {
             "--view filmic --exposure -1.5 --white-balance 3200",
             "--view aces --contrast 1.2 --saturation 0.5 --bits 16",
             "--view standard --exposure=2",
+            "--bloom 0.1 --vignette 60 --exposure auto",
         ] {
             place.run(&format!("{RENDER} {transparent} -o rendered.png {options}")).ends_with(0);
             let run = place.run(&format!("develop film.exr -o developed.png {options}")).ends_with(0);
@@ -51,14 +52,18 @@ fn options_do_what_they_say() {
         let of = pixels.iter().skip(channel).step_by(3);
         of.map(|&p| f64::from(p)).sum::<f64>() / (pixels.len() / 3) as f64
     };
-    let plain = pixels("");
+    let plain = pixels("--view standard");
     assert_eq!(plain[..3], [255; 3], "the background is brighter than white");
     let looks = ["agx", "aces", "filmic"].map(|view| pixels(&format!("--view {view}")));
     assert!(looks.iter().all(|look| *look != plain && look[..3] != [255; 3]));
-    assert!(mean(&pixels("--exposure -2"), 1) < mean(&plain, 1) - 20.0);
+    assert!(mean(&pixels("--exposure -2"), 1) < mean(&pixels(""), 1) - 20.0);
     let auto = mean(&pixels("--exposure auto"), 1);
     assert!((90.0..150.0).contains(&auto), "{auto}");
     let darker = pixels("--exposure -3");
+    assert!(pixels("--exposure -3 --bloom 0 --vignette 0") == darker);
+    assert!(pixels("--exposure -3 --bloom 0.5") != darker);
+    let corners = pixels("--exposure -3 --vignette 90");
+    assert!(corners[0] < darker[0] && mean(&corners, 1) < mean(&darker, 1));
     let warmth = |pixels: &[u8]| mean(pixels, 0) - mean(pixels, 2);
     assert!(warmth(&pixels("--exposure -3 --white-balance 3000")) < warmth(&darker) - 20.0);
     assert!(pixels("--exposure -3 --saturation 0").chunks(3).all(|p| p[0] == p[1] && p[1] == p[2]));
@@ -74,7 +79,8 @@ fn pictures_say_how_they_were_developed() {
     let ev = told.as_object_mut().unwrap().remove("ev").unwrap().as_f64().unwrap();
     assert!((-6.0..0.0).contains(&ev), "{ev}");
     let expected = json!({
-        "view": "agx", "exposure": "auto", "white_balance": 6500.0, "contrast": 1.5, "saturation": 1.0, "dither": true
+        "view": "agx", "bloom": 0.0, "vignette": 0.0, "exposure": "auto", "white_balance": 6500.0, "contrast": 1.5,
+        "saturation": 1.0, "dither": true
     });
     assert_eq!(told, expected);
     let (.., provenance) = read_png(&place.read("a.png"));

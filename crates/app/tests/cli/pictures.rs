@@ -28,7 +28,7 @@ fn read_exr(bytes: &[u8]) -> (Pixels, Value) {
 fn png_and_exr_show_the_same_and_say_what_made_it() {
     let place = Place::new();
     for format in ["png", "exr"] {
-        let options = "-r 45x21 --spp 5 --seed 9 -D camera.vfov=35";
+        let options = "-r 45x21 --spp 5 --seed 9 -D camera.vfov=35 --view standard";
         place.run(&format!("render scene.toml -q -o a.{format} {options} --stats {format}.json")).ends_with(0);
     }
     let (width, height, bytes, in_png) = read_png(&place.read("a.png"));

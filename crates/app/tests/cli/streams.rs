@@ -68,7 +68,8 @@ fn stats() {
     });
     assert_eq!(stats["settings"], settings);
     let look = serde_json::json!({
-        "view": "standard", "exposure": 0.0, "white_balance": 6500.0, "contrast": 1.0, "saturation": 1.0, "dither": false
+        "view": "agx", "bloom": 0.0, "vignette": 0.0, "exposure": 0.0, "white_balance": 6500.0, "contrast": 1.0,
+        "saturation": 1.0, "dither": false
     });
     assert_eq!(stats["look"], look);
     assert_eq!(stats["spp"], serde_json::json!({"min": 20, "mean": 20.0, "max": 20}));

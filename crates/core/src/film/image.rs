@@ -54,22 +54,21 @@ impl Image {
         self.pixels[self.index(x, y)]
     }
 
+    /// All pixels, row by row.
+    pub fn into_pixels(self) -> Vec<[f32; 3]> {
+        self.pixels
+    }
+
+    /// All pixels, row by row, to be changed.
+    pub fn pixels_mut(&mut self) -> &mut [[f32; 3]] {
+        &mut self.pixels
+    }
+
     /// The picture at a place, each coordinate 0..1 from the left and from the top: interpolated in both directions between
     /// the middles of pixels. Black if it has none.
     pub fn bilinear(&self, place: Vec2, wrap: Wrap) -> Spectrum {
-        if self.pixels.is_empty() {
-            return Spectrum::BLACK;
-        }
-        // In pixels from the middle of the first one.
-        let at = place * Vec2::new(self.width as f32, self.height as f32) - 0.5;
-        let (first, rest) = (at.floor(), at - at.floor());
-        let pixel = |dx: i64, dy: i64| {
-            let x = wrap.index(first.x as i64 + dx, self.width.into());
-            let y = wrap.index(first.y as i64 + dy, self.height.into());
-            Spectrum::from_rgb(self.pixel(x as u32, y as u32))
-        };
-        let in_row = |dy: i64| pixel(0, dy).lerp(pixel(1, dy), rest.x);
-        in_row(0).lerp(in_row(1), rest.y)
+        let pixel = |x: usize, y: usize| Spectrum::from_rgb(self.pixels[y * self.width as usize + x]);
+        wrap.bilinear([self.width, self.height], place, pixel)
     }
 
     /// Replaces the pixel in column `x` of row `y`.
@@ -110,15 +109,48 @@ pub enum Wrap {
 }
 
 impl Wrap {
+    /// A picture of a size at a place, each coordinate 0..1 from the left and from the top: interpolated in both directions
+    /// between the middles of pixels, which `pixel` tells by column and row. Black if there are none.
+    #[inline]
+    pub(crate) fn bilinear(self, size: [u32; 2], place: Vec2, pixel: impl Fn(usize, usize) -> Spectrum) -> Spectrum {
+        let [width, height] = size.map(i64::from);
+        if width * height == 0 {
+            return Spectrum::BLACK;
+        }
+        // In pixels from the middle of the first one.
+        let at = place * Vec2::new(width as f32, height as f32) - 0.5;
+        let (first, rest) = (at.floor(), at - at.floor());
+        let [x0, x1] = [0, 1].map(|step| self.index(first.x as i64 + step, width));
+        let [y0, y1] = [0, 1].map(|step| self.index(first.y as i64 + step, height));
+        let in_row = |y: usize| pixel(x0, y).lerp(pixel(x1, y), rest.x);
+        in_row(y0).lerp(in_row(y1), rest.y)
+    }
+
+    /// The same, of the pixel that the place lies in.
+    #[inline]
+    pub(crate) fn nearest(self, size: [u32; 2], place: Vec2, pixel: impl Fn(usize, usize) -> Spectrum) -> Spectrum {
+        let [width, height] = size.map(i64::from);
+        if width * height == 0 {
+            return Spectrum::BLACK;
+        }
+        let at = (place * Vec2::new(width as f32, height as f32)).floor();
+        pixel(self.index(at.x as i64, width), self.index(at.y as i64, height))
+    }
+
     /// The pixel that stands for pixel `i` in a row of `n`.
-    fn index(self, i: i64, n: i64) -> i64 {
-        match self {
+    #[inline]
+    pub(crate) fn index(self, i: i64, n: i64) -> usize {
+        if (0..n).contains(&i) {
+            return i as usize;
+        }
+        let within = match self {
             Self::Repeat => i.rem_euclid(n),
             Self::Mirror => {
                 let i = i.rem_euclid(2 * n);
                 i.min(2 * n - 1 - i)
             }
             Self::Clamp => i.clamp(0, n - 1),
-        }
+        };
+        within as usize
     }
 }

@@ -1,11 +1,12 @@
 //! The look: how linear light becomes the signal of a screen.
 //!
 //! ```text
-//! radiance ─ white balance, exposure ─ contrast ─ saturation ─ view ─► signal 0..1 ─ dither, round ─► 8 or 16 bit
+//! radiance ─ bloom ─ vignette ─ white balance, exposure ─ contrast ─ saturation ─ view ─► signal 0..1 ─ dither, round ─► 8 or 16 bit
 //! ```
 //!
 //! With linear Rec. 709 colours c and middle grey 0.18:
 //!
+//! - bloom and vignette, which a lens does: light scattered around what is bright, and darker corners,
 //! - white balance and exposure: c ← 2^EV M c ([`white_balance`](self), [`Exposure`]),
 //! - contrast: c ← 0.18 (c / 0.18)^contrast, which keeps black black and middle grey as it is,
 //! - saturation: c ← y + saturation (c − y) with y the luminance of c, and nothing below 0,
@@ -27,16 +28,20 @@
 
 mod dither;
 mod exposure;
+mod glare;
+mod tone;
 mod view;
+mod vignette;
 mod white_balance;
 
 pub use exposure::{Exposure, auto_ev};
 pub use view::View;
 
+use std::borrow::Cow;
+
 use glam::{Mat3, Vec3};
 use serde::{Deserialize, Serialize};
 
-use crate::color::Rgb;
 use crate::film::Image;
 
 /// The linear light that contrast does not change: a grey that reflects 18 % of it.
@@ -51,6 +56,11 @@ const BRIGHTEST: f32 = 1e20;
 pub struct Look {
     /// The curve from light to signal.
     pub view: View,
+    /// The share of light that the lens scatters, 0 to 1, which glows around what is bright. 0 is off.
+    pub bloom: f32,
+    /// The field of view, from the bottom to the top of the picture, of a lens that darkens its corners, degrees, 0 to 170. 0 is
+    /// off.
+    pub vignette: f32,
     /// How much brighter the picture is made, EV, −32 to 32, or found from the picture.
     pub exposure: Exposure,
     /// The temperature of the light that is to look white, kelvin, 1000 to 15 000. At 6500 nothing changes.
@@ -66,7 +76,9 @@ pub struct Look {
 impl Default for Look {
     fn default() -> Self {
         Self {
-            view: View::Standard,
+            view: View::default(),
+            bloom: 0.0,
+            vignette: 0.0,
             exposure: Exposure::Ev(0.0),
             white_balance: Self::WHITE,
             contrast: 1.0,
@@ -77,6 +89,10 @@ impl Default for Look {
 }
 
 impl Look {
+    /// The least and the most bloom.
+    pub const BLOOM_RANGE: [f32; 2] = [0.0, 1.0];
+    /// The narrowest and the widest field of view of a vignette, degrees.
+    pub const VIGNETTE_RANGE: [f32; 2] = [0.0, 170.0];
     /// The largest step of exposure in either direction, EV.
     pub const MAX_EV: f32 = 32.0;
     /// The white balance that changes nothing, kelvin.
@@ -87,6 +103,29 @@ impl Look {
     pub const CONTRAST_RANGE: [f32; 2] = [0.1, 4.0];
     /// The lowest and highest saturation.
     pub const SATURATION_RANGE: [f32; 2] = [0.0, 4.0];
+
+    /// What the lens makes of the light of a picture, before [`grade`](Self::grade): the same picture if it does nothing.
+    /// Values out of range are taken as the nearest in it.
+    pub fn through_lens<'i>(&self, image: &'i Image) -> Cow<'i, Image> {
+        let within = |value: f32, [lo, hi]: [f32; 2]| if value > lo { value.min(hi) } else { lo };
+        let mut image = Cow::Borrowed(image);
+        let bloom = within(self.bloom, Self::BLOOM_RANGE);
+        if bloom > 0.0 {
+            glare::scatter(image.to_mut(), bloom);
+        }
+        let vignette = within(self.vignette, Self::VIGNETTE_RANGE);
+        if vignette > 0.0 {
+            vignette::darken(image.to_mut(), vignette);
+        }
+        image
+    }
+
+    /// The memory that [`through_lens`](Self::through_lens) takes for each pixel, bytes.
+    pub fn lens_bytes(&self) -> u64 {
+        // A copy, and two to blur.
+        let pictures = if self.bloom > 0.0 { 3 } else { u64::from(self.vignette > 0.0) };
+        pictures * size_of::<[f32; 3]>() as u64
+    }
 
     /// The look as it is for this picture. Values out of range are taken as the nearest in it.
     pub fn grade(&self, image: &Image) -> Grade {
@@ -130,7 +169,8 @@ impl Grade {
     pub fn signal(&self, rgb: [f32; 3]) -> [f32; 3] {
         // What is no number is not above 0.
         let light = rgb.map(|c| if c > 0.0 { c.min(BRIGHTEST) } else { 0.0 });
-        self.view.signal(self.saturate(self.balance(light).map(|c| self.contrast(c))))
+        let light = self.balance(light).map(|c| tone::contrast(c, self.contrast));
+        self.view.signal(tone::saturate(light, self.saturation))
     }
 
     /// The pixel in column `x` of row `y` in 8 bits, with the look's dithering.
@@ -150,27 +190,12 @@ impl Grade {
         let balanced = self.balance.map_or(rgb, |matrix| (matrix * Vec3::from(rgb)).to_array());
         balanced.map(|c| c.max(0.0) * self.gain)
     }
-
-    fn contrast(&self, c: f32) -> f32 {
-        if self.contrast == 1.0 {
-            return c;
-        }
-        (MIDDLE_GREY * libm::powf(c / MIDDLE_GREY, self.contrast)).min(BRIGHTEST)
-    }
-
-    fn saturate(&self, rgb: [f32; 3]) -> [f32; 3] {
-        if self.saturation == 1.0 {
-            return rgb;
-        }
-        let y = Rgb(rgb).luminance();
-        rgb.map(|c| (y + self.saturation * (c - y)).max(0.0))
-    }
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::color::srgb_encode;
+    use crate::color::{Rgb, srgb_encode};
 
     fn grade(look: Look) -> Grade {
         look.grade(&Image::new(1, 1))
@@ -191,6 +216,23 @@ mod tests {
     }
 
     #[test]
+    fn a_lens_that_does_nothing_changes_nothing() {
+        let mut image = Image::new(2, 2);
+        image.set_pixel(1, 0, [7.0, 1.0, 1e-40]);
+        let image = image.with_alpha(vec![0.5; 4]);
+        let look = Look { bloom: f32::NAN, vignette: -1.0, ..Look::default() };
+        for look in [Look::default(), look] {
+            assert!(matches!(look.through_lens(&image), Cow::Borrowed(same) if *same == image));
+            assert_eq!(look.lens_bytes(), 0);
+        }
+        for (bloom, vignette) in [(0.1, 0.0), (0.0, 40.0), (9.0, 999.0)] {
+            let seen = Look { bloom, vignette, ..Look::default() }.through_lens(&image).into_owned();
+            assert!(seen != image && seen.alpha() == image.alpha());
+            assert!(seen.pixels().as_flattened().iter().all(|c| c.is_finite() && *c >= 0.0));
+        }
+    }
+
+    #[test]
     fn what_is_no_light_is_black() {
         for (_, view) in View::NAMES {
             let grade = grade(Look { view: *view, contrast: 1.5, saturation: 2.0, ..Look::default() });
@@ -205,6 +247,8 @@ mod tests {
                 let end = |[lo, hi]: [f32; 2]| if extreme < 0.0 { lo } else { hi };
                 let grade = grade(Look {
                     view: *view,
+                    bloom: 0.0,
+                    vignette: 0.0,
                     exposure: Exposure::Ev(extreme * f32::INFINITY),
                     white_balance: end(Look::WHITE_RANGE),
                     contrast: end(Look::CONTRAST_RANGE),

@@ -86,13 +86,12 @@ impl Dielectric {
     pub(crate) fn check(&self, c: &mut Checker) {
         c.in_range("eta", self.eta, 0.01, 100.0);
         self.roughness.check_range("roughness", 0.0, 1.0, c);
-        if let Some(bad) =
-            self.absorption.and_then(|rgb| rgb.0.into_iter().find(|a| !(0.0..=Self::DARKEST).contains(a)))
+        for (key, value, hi) in
+            [("absorption", self.absorption, Self::DARKEST), ("transmittance", self.transmittance, 1.0)]
         {
-            c.in_range("absorption", bad, 0.0, Self::DARKEST);
-        }
-        if let Some(transmittance) = self.transmittance {
-            c.albedo("transmittance", transmittance);
+            if let Some(bad) = value.and_then(|rgb| rgb.0.into_iter().find(|channel| !(0.0..=hi).contains(channel))) {
+                c.in_range(key, bad, 0.0, hi);
+            }
         }
         if self.absorption.is_some() && self.transmittance.is_some() {
             let hint = "keep one of them".to_owned();

@@ -1,6 +1,7 @@
 //! Small mathematics that several rooms share.
 
 mod frame;
+mod half;
 mod hash;
 mod offset;
 mod pose;
@@ -10,6 +11,7 @@ mod steps;
 mod trig;
 
 pub use frame::Frame;
+pub(crate) use half::half_to_f32;
 pub(crate) use hash::{BELOW_ONE, GAMMA, mix, unit};
 pub use offset::clearance;
 pub(crate) use pose::Pose;

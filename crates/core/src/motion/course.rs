@@ -101,13 +101,13 @@ fn shortest(from: DQuat, to: DQuat) -> (DVec3, f64) {
 }
 
 impl Course {
-    /// Turns and grows about `middle` if the shape says no other pivot.
-    pub(crate) fn new(desc: &MotionDesc<'_>, middle: [f32; 3]) -> Self {
+    /// Turns and grows about the shape's own origin if it says no pivot.
+    pub(crate) fn new(desc: &MotionDesc<'_>, origin: Vec3) -> Self {
         let legs = match desc.keys {
             [only] => vec![Leg::new(only, only)],
             keys => keys.windows(2).filter_map(|pair| Some(Leg::new(pair.first()?, pair.last()?))).collect(),
         };
-        Self { pivot: Vec3::from(desc.pivot.unwrap_or(middle)).as_dvec3(), legs }
+        Self { pivot: desc.pivot.map_or(origin, Vec3::from).as_dvec3(), legs }
     }
 
     /// The number of straight pieces while the shutter is open.
@@ -186,7 +186,7 @@ mod tests {
     }
 
     fn course(keys: &[MotionKey], pivot: [f32; 3]) -> Course {
-        Course::new(&MotionDesc { keys, pivot: Some(pivot) }, [0.0; 3])
+        Course::new(&MotionDesc { keys, pivot: Some(pivot) }, Vec3::ZERO)
     }
 
     fn near(a: DVec3, b: [f64; 3]) {

@@ -28,6 +28,7 @@
 
 mod course;
 
+use glam::Vec3;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
@@ -115,7 +116,7 @@ impl MotionDesc<'_> {
                 c.within(i, |c| key.check(c));
             }
         });
-        let pieces = Course::new(self, [0.0; 3]).pieces(shutter);
+        let pieces = Course::new(self, Vec3::ZERO).pieces(shutter);
         if pieces > Self::MOST_PIECES {
             let message = format!("the motion has {pieces} straight pieces while the shutter is open");
             let hint = format!(

@@ -117,7 +117,7 @@ impl Scene {
         loop {
             let turned = match material {
                 MaterialDesc::NormalMap(map) => map.normal(&textures).map(|n| along(ns, tangents).to_world(n)),
-                MaterialDesc::Bump(bump) => relief(bump, &textures, ns, tangents),
+                MaterialDesc::Bump(bump) => relief(bump, &textures, met, ns, tangents),
                 _ => None,
             };
             ns = turned.map_or(ns, |turned| bent(turned, point.n, ray.d));
@@ -143,7 +143,7 @@ fn bent(ns: Vec3, n: Vec3, d: Vec3) -> Vec3 {
 }
 
 /// The normal of a relief.
-fn relief(bump: &Bump, textures: &TexturesAt<'_>, ns: Vec3, [u, v]: [Vec3; 2]) -> Option<Vec3> {
+fn relief(bump: &Bump, textures: &TexturesAt<'_>, met: &Met<'_>, ns: Vec3, [u, v]: [Vec3; 2]) -> Option<Vec3> {
     /// Of the size of coordinates, and metres: so short that textures change evenly, so long that single precision tells.
     const STEP: f32 = 2e-4;
     let step = STEP * (1.0 + textures.at.p.abs().max_element());
@@ -152,7 +152,7 @@ fn relief(bump: &Bump, textures: &TexturesAt<'_>, ns: Vec3, [u, v]: [Vec3; 2]) -
     let moved = |axis: Vec3| {
         let by = step * frame.to_world(axis);
         let uv = if area == 0.0 { Vec2::ZERO } else { Vec2::new(by.cross(v).dot(ns), u.cross(by).dot(ns)) / area };
-        textures.moved(by, uv)
+        textures.moved(by, met.way_on_shape(by), uv)
     };
     let n = bump.normal([textures, &moved(Vec3::X), &moved(Vec3::Y)], step)?;
     Some(frame.to_world(n))

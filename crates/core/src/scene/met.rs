@@ -62,13 +62,25 @@ impl<'s> Met<'s> {
         (matrix.transpose() * n.as_dvec3()).normalize().as_vec3()
     }
 
+    /// The place on the shape, where that is without motion, of a place in the world.
+    fn place_on_shape(&self, p: Vec3) -> Vec3 {
+        let Some(motion) = &self.object.motion else { return p };
+        motion.to_world(self.time).inverse().transform_point3(p.as_dvec3()).as_vec3()
+    }
+
+    /// The way on the shape, where that is without motion, of a way in the world.
+    pub(super) fn way_on_shape(&self, by: Vec3) -> Vec3 {
+        let Some(motion) = &self.object.motion else { return by };
+        motion.to_world(self.time).inverse().transform_vector3(by.as_dvec3()).as_vec3()
+    }
+
     /// Coordinates on the shape: along the edges of a quad, longitude and latitude on a sphere, what a mesh says, or the weights
     /// of a triangle's second and third vertex.
     pub(crate) fn uv(&self, point: &SurfacePoint) -> Vec2 {
         if point.is_round {
             return sphere_uv(self.normal_on_shape(point.n));
         }
-        self.object.uvs.as_ref().map_or(self.uv, |uvs| uvs.at(self.primitive, self.uv))
+        self.object.vertices.as_ref().and_then(|v| v.uv(self.primitive, self.uv)).unwrap_or(self.uv)
     }
 
     /// How the point moves, in metres, with these coordinates; nothing where that is not known.
@@ -79,7 +91,7 @@ impl<'s> Met<'s> {
             }
             Surface::Flat { edges, .. } => {
                 let edges = edges.map(|edge| edge.as_vec3());
-                self.object.uvs.as_ref().map_or(edges, |uvs| uvs.tangents(self.primitive, edges))
+                self.object.vertices.as_ref().and_then(|v| v.tangents(self.primitive, edges)).unwrap_or(edges)
             }
         };
         let Some(motion) = &self.object.motion else { return on_shape };
@@ -96,6 +108,14 @@ impl<'s> Met<'s> {
     /// The textures of the scene, at a point of the place.
     pub(crate) fn textures(&self, point: &SurfacePoint) -> TexturesAt<'s> {
         let textures: &[TextureDesc] = &self.scene.textures;
-        TexturesAt { textures, at: TexturePoint { uv: self.uv(point), p: point.p } }
+        let at = TexturePoint {
+            uv: self.uv(point),
+            p: point.p,
+            p_object: self.place_on_shape(point.p) - self.object.origin,
+            n: point.ns,
+            n_object: self.normal_on_shape(point.ns),
+            vertex_color: self.object.vertices.as_ref().and_then(|v| v.color(self.primitive, self.uv)),
+        };
+        TexturesAt { textures, at }
     }
 }

@@ -25,7 +25,7 @@ use crate::material::MaterialDesc;
 use crate::medium::Filling;
 use crate::motion::{Course, Motion};
 use crate::names::Numbers;
-use crate::shape::{MeshUvs, Plane, Smooth};
+use crate::shape::{Plane, Smooth, VertexData};
 use crate::texture::{self, TextureDesc};
 use crate::validate::Problem;
 
@@ -83,8 +83,10 @@ struct Object {
     motion: Option<Motion>,
     /// If it is a single quad that is not moved.
     plane: Option<Plane>,
-    /// Coordinates for textures, if the mesh has them.
-    uvs: Option<MeshUvs>,
+    /// What vertices say to textures, if they do.
+    vertices: Option<VertexData>,
+    /// Where the shape's own coordinates begin.
+    origin: Vec3,
     /// Whether it is a sphere.
     is_round: bool,
     /// Whether its material is made of others or follows the coordinates.
@@ -165,7 +167,7 @@ impl Scene {
         for (_, _, shape) in desc.shape.iter() {
             let first = geometry.primitives.len();
             let motion =
-                Course::new(&shape.motion(), shape.middle()).motion(desc.render.shutter, geometry.objects.len() as u32);
+                Course::new(&shape.motion(), shape.origin()).motion(desc.render.shutter, geometry.objects.len() as u32);
             let is_round = geometry.add(shape, motion.as_ref(), build).map_err(refused)?;
             let material = numbers.get(shape.material().unwrap_or(SceneDesc::DEFAULT_MATERIAL));
             let wear = Wear::of(&materials, material);
@@ -177,7 +179,8 @@ impl Scene {
                 smooth: shape.smooth(),
                 plane: shape.plane().filter(|_| motion.is_none()),
                 motion,
-                uvs: shape.uvs(),
+                vertices: shape.vertex_data(),
+                origin: shape.origin(),
                 is_round,
                 is_dressed: wear.is_dressed,
                 has_holes: wear.has_holes,

@@ -12,6 +12,7 @@
 //! file = "bunny.ply"
 //! ```
 
+use std::array;
 use std::sync::Arc;
 
 use eyebeam_bvh::{Primitive, Triangle};
@@ -20,6 +21,7 @@ use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 use crate::array::{arrays, optional_array};
+use crate::color::Rgb;
 use crate::motion::{MotionDesc, MotionKey};
 use crate::shape::{ShapeDesc, Smooth};
 use crate::validate::Checker;
@@ -44,12 +46,15 @@ pub struct MeshDesc {
     /// Coordinates for textures at each vertex.
     #[serde(deserialize_with = "arrays")]
     pub uvs: Vec<[f32; 2]>,
+    /// A linear colour at each vertex, for the texture `vertex-color`.
+    #[serde(deserialize_with = "arrays")]
+    pub colors: Vec<[f32; 3]>,
     /// Name of a material; grey matte if absent.
     pub material: Option<String>,
     /// Where it is at some times; it rests if absent.
     #[serde(skip_serializing_if = "Vec::is_empty")]
     pub motion: Vec<MotionKey>,
-    /// About what its `motion` turns it, and from where it grows, metres, where it is without motion; the middle of the box around it if absent.
+    /// About what its `motion` turns it, and from where it grows, metres, where it is without motion; [0, 0, 0] if absent.
     #[serde(deserialize_with = "optional_array", skip_serializing_if = "Option::is_none")]
     pub pivot: Option<[f32; 3]>,
     /// What is in the file, once a reader has loaded it.
@@ -68,41 +73,53 @@ pub struct MeshData {
     pub normals: Vec<[f32; 3]>,
     /// Coordinates for textures at each vertex, or none at all.
     pub uvs: Vec<[f32; 2]>,
+    /// A linear colour at each vertex, or none at all.
+    pub colors: Vec<[f32; 3]>,
 }
 
-/// Coordinates for textures.
+/// What textures ask of the vertices of a mesh.
 #[derive(Clone, Debug)]
-pub(crate) struct MeshUvs {
+pub(crate) struct VertexData {
     triangles: Arc<[[u32; 3]]>,
-    /// At each vertex.
     uvs: Arc<[[f32; 2]]>,
+    colors: Arc<[[f32; 3]]>,
 }
 
-impl MeshUvs {
-    /// At the corners of a triangle.
-    fn corners(&self, triangle: u32) -> [Vec2; 3] {
-        let corners = self.triangles.get(triangle as usize).copied().unwrap_or_default();
-        corners.map(|i| self.uvs.get(i as usize).copied().map_or(Vec2::ZERO, Vec2::from))
+impl VertexData {
+    /// The coordinates for textures at the point of a triangle where its second and third vertex have these weights.
+    pub(crate) fn uv(&self, triangle: u32, weights: Vec2) -> Option<Vec2> {
+        self.corners(&self.uvs, triangle).map(|corners| between(corners, weights).into())
+    }
+
+    /// The colour there.
+    pub(crate) fn color(&self, triangle: u32, weights: Vec2) -> Option<Rgb> {
+        self.corners(&self.colors, triangle).map(|corners| Rgb(between(corners, weights)))
     }
 
     /// How a point of a triangle with these first two edges moves with the coordinates; nothing is said where they are the same
     /// all over.
-    pub(crate) fn tangents(&self, triangle: u32, edges: [Vec3; 2]) -> [Vec3; 2] {
-        let [a, b, c] = self.corners(triangle);
+    pub(crate) fn tangents(&self, triangle: u32, edges: [Vec3; 2]) -> Option<[Vec3; 2]> {
+        let [a, b, c] = self.corners(&self.uvs, triangle)?.map(Vec2::from);
         let [first, second] = [b - a, c - a];
         let area = first.perp_dot(second);
         if area == 0.0 {
-            return [Vec3::ZERO; 2];
+            return Some([Vec3::ZERO; 2]);
         }
         let [e1, e2] = edges;
-        [(e1 * second.y - e2 * first.y) / area, (e2 * first.x - e1 * second.x) / area]
+        Some([(e1 * second.y - e2 * first.y) / area, (e2 * first.x - e1 * second.x) / area])
     }
 
-    /// At the point of a triangle where its second and third vertex have these weights.
-    pub(crate) fn at(&self, triangle: u32, weights: Vec2) -> Vec2 {
-        let [a, b, c] = self.corners(triangle);
-        a * (1.0 - weights.x - weights.y) + b * weights.x + c * weights.y
+    /// At the corners of a triangle; none if vertices have no such numbers.
+    fn corners<T: Copy>(&self, numbers: &[T], triangle: u32) -> Option<[T; 3]> {
+        let &[a, b, c] = self.triangles.get(triangle as usize)?;
+        let number = |i: u32| numbers.get(i as usize).copied();
+        Some([number(a)?, number(b)?, number(c)?])
     }
+}
+
+/// At the point of a triangle where its second and third vertex have these weights.
+fn between<const N: usize>([a, b, c]: [[f32; N]; 3], weights: Vec2) -> [f32; N] {
+    array::from_fn(|i| a[i] * (1.0 - weights.x - weights.y) + b[i] * weights.x + c[i] * weights.y)
 }
 
 /// A mesh, wherever it comes from.
@@ -111,15 +128,22 @@ struct Mesh<'a> {
     triangles: &'a [[u32; 3]],
     normals: &'a [[f32; 3]],
     uvs: &'a [[f32; 2]],
+    colors: &'a [[f32; 3]],
 }
 
 impl MeshDesc {
     fn mesh(&self) -> Mesh<'_> {
         match self.data.as_deref() {
-            Some(MeshData { vertices, triangles, normals, uvs }) => Mesh { vertices, triangles, normals, uvs },
-            None => {
-                Mesh { vertices: &self.vertices, triangles: &self.triangles, normals: &self.normals, uvs: &self.uvs }
+            Some(MeshData { vertices, triangles, normals, uvs, colors }) => {
+                Mesh { vertices, triangles, normals, uvs, colors }
             }
+            None => Mesh {
+                vertices: &self.vertices,
+                triangles: &self.triangles,
+                normals: &self.normals,
+                uvs: &self.uvs,
+                colors: &self.colors,
+            },
         }
     }
 
@@ -153,7 +177,7 @@ impl<'a> Mesh<'a> {
             }
         });
         let count = self.vertices.len();
-        for (key, given) in [("normals", self.normals.len()), ("uvs", self.uvs.len())] {
+        for (key, given) in [("normals", self.normals.len()), ("uvs", self.uvs.len()), ("colors", self.colors.len())] {
             if given != 0 && given != count {
                 let message = format!("there are {given} {key} for {count} vertices");
                 c.problem(key, message, Some("give one for each vertex, or none".to_owned()));
@@ -162,6 +186,13 @@ impl<'a> Mesh<'a> {
         c.within("uvs", |c| {
             for (i, uv) in self.uvs.iter().enumerate().filter(|(_, uv)| !is_finite(*uv)) {
                 c.problem(i, format!("coordinates {i} are {uv:?}"), Some("use finite numbers".to_owned()));
+            }
+        });
+        c.within("colors", |c| {
+            let is_color = |v: &[f32]| is_finite(v) && v.iter().all(|&c| c >= 0.0);
+            for (i, color) in self.colors.iter().enumerate().filter(|(_, color)| !is_color(*color)) {
+                let hint = "use finite numbers that are not negative".to_owned();
+                c.problem(i, format!("color {i} is {color:?}"), Some(hint));
             }
         });
         c.within("normals", |c| {
@@ -187,6 +218,7 @@ impl ShapeDesc for MeshDesc {
             ("triangles", self.triangles.is_empty()),
             ("normals", self.normals.is_empty()),
             ("uvs", self.uvs.is_empty()),
+            ("colors", self.colors.is_empty()),
         ];
         let list = lists.iter().find(|(_, is_empty)| !is_empty).map(|(name, _)| name);
         match (&self.file, list) {
@@ -217,20 +249,14 @@ impl ShapeDesc for MeshDesc {
         MotionDesc { keys: &self.motion, pivot: self.pivot }
     }
 
-    fn middle(&self) -> [f32; 3] {
-        let vertices = || self.mesh().vertices.iter().map(|&v| Vec3::from(v));
-        let [lo, hi] = [Vec3::min, Vec3::max].map(|bound| vertices().reduce(bound).unwrap_or_default());
-        (0.5 * (lo + hi)).to_array()
-    }
-
     fn smooth(&self) -> Option<Smooth> {
         let mesh = self.mesh();
         (!mesh.normals.is_empty()).then(|| Smooth::new(mesh.triangles.to_vec(), mesh.normals))
     }
 
-    fn uvs(&self) -> Option<MeshUvs> {
-        let mesh = self.mesh();
-        let of_vertices = || MeshUvs { triangles: mesh.triangles.into(), uvs: mesh.uvs.into() };
-        (!mesh.uvs.is_empty()).then(of_vertices)
+    fn vertex_data(&self) -> Option<VertexData> {
+        let Mesh { triangles, uvs, colors, .. } = self.mesh();
+        let data = || VertexData { triangles: triangles.into(), uvs: uvs.into(), colors: colors.into() };
+        (!uvs.is_empty() || !colors.is_empty()).then(data)
     }
 }

@@ -11,14 +11,14 @@ mod smooth;
 mod sphere;
 
 use eyebeam_bvh::{Bvh, Hit, Primitive, Ray, Surface};
-use glam::Vec2;
+use glam::{Vec2, Vec3};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 use crate::motion::MotionDesc;
 use crate::validate::Checker;
 
-pub(crate) use mesh::MeshUvs;
+pub(crate) use mesh::VertexData;
 pub use mesh::{MeshData, MeshDesc};
 pub(crate) use plane::Plane;
 pub use point::SurfacePoint;
@@ -74,17 +74,19 @@ pub(crate) trait ShapeDesc {
     /// How it moves.
     fn motion(&self) -> MotionDesc<'_>;
 
-    /// What it turns about if it says nothing else, metres.
-    fn middle(&self) -> [f32; 3];
-
     /// Normals that make it look round.
     fn smooth(&self) -> Option<Smooth> {
         None
     }
 
-    /// Coordinates for textures that it says itself.
-    fn uvs(&self) -> Option<MeshUvs> {
+    /// What its vertices say to textures.
+    fn vertex_data(&self) -> Option<VertexData> {
         None
+    }
+
+    /// Where its own coordinates begin, in the world, and what it turns about if it says no pivot.
+    fn origin(&self) -> Vec3 {
+        Vec3::ZERO
     }
 
     /// Its plane, if it is one.

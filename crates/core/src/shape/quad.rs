@@ -37,7 +37,7 @@ pub struct QuadDesc {
     /// Where it is at some times; it rests if absent.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub motion: Vec<MotionKey>,
-    /// About what its `motion` turns it, and from where it grows, metres, where it is without motion; its middle if absent.
+    /// About what its `motion` turns it, and from where it grows, metres, where it is without motion; its corner if absent.
     #[serde(default, deserialize_with = "optional_array", skip_serializing_if = "Option::is_none")]
     pub pivot: Option<[f32; 3]>,
 }
@@ -63,16 +63,15 @@ impl ShapeDesc for QuadDesc {
         Some(Plane::new(corner, [u, v]))
     }
 
+    fn origin(&self) -> Vec3 {
+        self.corner.into()
+    }
+
     fn material(&self) -> Option<&str> {
         self.material.as_deref()
     }
 
     fn motion(&self) -> MotionDesc<'_> {
         MotionDesc { keys: &self.motion, pivot: self.pivot }
-    }
-
-    fn middle(&self) -> [f32; 3] {
-        let [corner, u, v] = [self.corner, self.u, self.v].map(Vec3::from);
-        (corner + 0.5 * (u + v)).to_array()
     }
 }

@@ -49,16 +49,16 @@ impl ShapeDesc for SphereDesc {
         primitives.push(Primitive::Sphere(Sphere { center: Vec3::from(self.center), radius: self.radius }));
     }
 
+    fn origin(&self) -> Vec3 {
+        self.center.into()
+    }
+
     fn material(&self) -> Option<&str> {
         self.material.as_deref()
     }
 
     fn motion(&self) -> MotionDesc<'_> {
         MotionDesc { keys: &self.motion, pivot: self.pivot }
-    }
-
-    fn middle(&self) -> [f32; 3] {
-        self.center
     }
 }
 

@@ -52,13 +52,13 @@ impl Checker {
 mod tests {
     use super::*;
     use crate::texture::TexturePoint;
-    use glam::{Vec2, Vec3};
+    use glam::Vec3;
 
     #[test]
     fn squares_alternate_on_both_sides_of_zero() {
         let checker = Checker { even: Rgb::grey(1.0).into(), odd: Rgb::grey(0.0).into(), ..Checker::default() };
         let is_even = |x: f32, z: f32| {
-            let at = TexturePoint { uv: Vec2::ZERO, p: Vec3::new(x, 0.0, z) };
+            let at = TexturePoint { p: Vec3::new(x, 0.0, z), ..TexturePoint::default() };
             checker.color(&TexturesAt { textures: &[], at }).to_rgb()[0] == 1.0
         };
         for (x, z) in [(-3, -2), (-1, 0), (0, 0), (1, 2), (5, -7)] {

@@ -39,6 +39,16 @@ impl Color {
         }
     }
 
+    /// This and a share of another, of which only what counts is looked up.
+    #[inline]
+    pub(super) fn mixed(&self, other: &Self, share: f32, textures: &impl Textures) -> Spectrum {
+        match share {
+            0.0 => self.at(textures),
+            1.0 => other.at(textures),
+            _ => self.at(textures).lerp(other.at(textures), share),
+        }
+    }
+
     /// The amount of light at a point, from nothing to the brightest that the film holds, whatever a texture says.
     #[inline]
     pub(crate) fn amount_at(&self, textures: &impl Textures) -> Spectrum {

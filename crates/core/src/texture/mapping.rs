@@ -19,7 +19,7 @@ use crate::validate::Checker;
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields, default)]
 pub struct Mapping {
-    /// Coordinates on the shape or places in the world; each texture has a default.
+    /// Coordinates on the shape, places in the world or within the shape; each texture has a default.
     pub space: Option<Space>,
     /// Turns about the third axis, counter-clockwise, degrees.
     pub rotation: f32,
@@ -39,6 +39,8 @@ pub enum Space {
     Uv,
     /// In the world, metres.
     World,
+    /// From the shape's own origin, metres: the centre of a sphere, the corner of a quad, where a mesh counts from.
+    Object,
 }
 
 impl Default for Mapping {
@@ -59,12 +61,24 @@ impl Mapping {
     /// The place on the texture. Finite, whatever the numbers are.
     #[inline]
     pub(super) fn place(&self, at: &TexturePoint, default: Space) -> Vec3 {
-        /// Single precision tells nothing apart beyond.
-        const FARTHEST: Vec3 = Vec3::splat(1e9);
-        let p = match self.space.unwrap_or(default) {
+        self.lay(self.origin(at, default))
+    }
+
+    /// The coordinates that it turns, stretches and moves.
+    #[inline]
+    pub(super) fn origin(&self, at: &TexturePoint, default: Space) -> Vec3 {
+        match self.space.unwrap_or(default) {
             Space::Uv => at.uv.extend(0.0),
             Space::World => at.p,
-        };
+            Space::Object => at.p_object,
+        }
+    }
+
+    /// Turns, stretches and moves coordinates.
+    #[inline]
+    pub(super) fn lay(&self, p: Vec3) -> Vec3 {
+        /// Single precision tells nothing apart beyond.
+        const FARTHEST: Vec3 = Vec3::splat(1e9);
         let turned = if self.rotation == 0.0 {
             p
         } else {
@@ -85,10 +99,17 @@ mod tests {
     #[test]
     fn turns_stretches_and_moves_in_this_order() {
         let mapping = Mapping { rotation: 90.0, scale: [2.0, 3.0, 4.0], offset: [1.0, 0.0, 0.0], ..Mapping::default() };
-        let at = TexturePoint { uv: Vec2::new(1.0, 0.0), p: Vec3::new(0.0, 1.0, 1.0) };
+        let at = TexturePoint {
+            uv: Vec2::new(1.0, 0.0),
+            p: Vec3::new(0.0, 1.0, 1.0),
+            p_object: Vec3::new(0.0, 2.0, 3.0),
+            ..TexturePoint::default()
+        };
         assert!((mapping.place(&at, Space::Uv) - Vec3::new(1.0, 3.0, 0.0)).length() < 1e-5);
         assert!((mapping.place(&at, Space::World) - Vec3::new(-1.0, 0.0, 4.0)).length() < 1e-5);
         let world = Mapping { space: Some(Space::World), ..Mapping::default() };
         assert_eq!(world.place(&at, Space::Uv), at.p);
+        let object = Mapping { space: Some(Space::Object), ..Mapping::default() };
+        assert_eq!(object.place(&at, Space::World), at.p_object);
     }
 }

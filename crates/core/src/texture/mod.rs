@@ -12,14 +12,22 @@
 //! albedo = "squares"
 //! ```
 
+mod channel;
 mod checker;
 mod color;
+mod gradient;
 mod image;
+mod invert;
 mod mapping;
 mod marble;
+mod mix;
+mod multiply;
 mod noise;
 mod perlin;
+mod pixels;
+mod ramp;
 mod scalar;
+mod vertex_color;
 mod wood;
 
 use std::collections::BTreeMap;
@@ -28,17 +36,25 @@ use glam::{Vec2, Vec3};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
-use crate::color::Spectrum;
+use crate::color::{Rgb, Spectrum};
 use crate::names::{Named, Nesting, Numbers};
 use crate::validate::Checker as Check;
 
+pub use channel::{Channel, ChannelOf};
 pub use checker::Checker;
 pub use color::Color;
+pub use gradient::Gradient;
 pub use image::ImageTexture;
+pub use invert::Invert;
 pub use mapping::{Mapping, Space};
 pub use marble::Marble;
+pub use mix::Mix;
+pub use multiply::Multiply;
 pub use noise::Noise;
+pub use pixels::{Encoding, Filter, Pixels, Samples};
+pub use ramp::{Interpolation, Ramp, Stop};
 pub use scalar::Scalar;
+pub use vertex_color::VertexColor;
 pub use wood::Wood;
 
 /// A texture as a scene states it: `[texture.NAME.KIND]`.
@@ -55,15 +71,37 @@ pub enum TextureDesc {
     Marble(Marble),
     /// Rings.
     Wood(Wood),
+    /// From one colour to another.
+    Gradient(Gradient),
+    /// The colours of vertices.
+    VertexColor(VertexColor),
+    /// Colours for numbers.
+    Ramp(Ramp),
+    /// Two textures in shares.
+    Mix(Mix),
+    /// The product of two textures.
+    Multiply(Multiply),
+    /// The opposite of a texture.
+    Invert(Invert),
+    /// A part of a texture.
+    Channel(ChannelOf),
 }
 
 /// Where a texture is looked up.
-#[derive(Clone, Copy, Debug)]
+#[derive(Clone, Copy, Debug, Default)]
 pub struct TexturePoint {
     /// Coordinates on the shape.
     pub uv: Vec2,
     /// Place in the world, metres.
     pub p: Vec3,
+    /// Place from the shape's own origin, metres; where the shape is without motion.
+    pub p_object: Vec3,
+    /// Unit shading normal.
+    pub n: Vec3,
+    /// The same on the shape, where that is without motion.
+    pub n_object: Vec3,
+    /// What the vertices of a mesh say.
+    pub vertex_color: Option<Rgb>,
 }
 
 /// What materials ask for what they do not hold themselves: colours, and how coordinates lie on the shape.
@@ -97,9 +135,11 @@ pub struct TexturesAt<'t> {
 }
 
 impl TexturesAt<'_> {
-    /// The same at a point that is a little off, by so many metres and coordinates.
-    pub(crate) fn moved(&self, by: Vec3, uv: Vec2) -> Self {
-        Self { at: TexturePoint { uv: self.at.uv + uv, p: self.at.p + by }, ..*self }
+    /// The same at a point that is a little off, by so many metres in the world and on the shape, and coordinates.
+    pub(crate) fn moved(&self, by: Vec3, by_object: Vec3, uv: Vec2) -> Self {
+        let [p, p_object] = [self.at.p + by, self.at.p_object + by_object];
+        let at = TexturePoint { uv: self.at.uv + uv, p, p_object, ..self.at };
+        Self { at, ..*self }
     }
 }
 
@@ -119,6 +159,13 @@ impl TextureDesc {
             Self::Noise(t) => t.color(textures),
             Self::Marble(t) => t.color(textures),
             Self::Wood(t) => t.color(textures),
+            Self::Gradient(t) => t.color(textures),
+            Self::VertexColor(t) => t.color(&textures.at),
+            Self::Ramp(t) => t.color(textures),
+            Self::Mix(t) => t.color(textures),
+            Self::Multiply(t) => t.color(textures),
+            Self::Invert(t) => t.color(textures),
+            Self::Channel(t) => t.color(textures),
         }
     }
 
@@ -129,6 +176,13 @@ impl TextureDesc {
             Self::Noise(t) => c.within("noise", |c| t.check(c)),
             Self::Marble(t) => c.within("marble", |c| t.check(c)),
             Self::Wood(t) => c.within("wood", |c| t.check(c)),
+            Self::Gradient(t) => c.within("gradient", |c| t.check(c)),
+            Self::VertexColor(t) => c.within("vertex-color", |c| t.check(c)),
+            Self::Ramp(t) => c.within("ramp", |c| t.check(c)),
+            Self::Mix(t) => c.within("mix", |c| t.check(c)),
+            Self::Multiply(t) => c.within("multiply", |c| t.check(c)),
+            Self::Invert(t) => c.within("invert", |c| t.check(c)),
+            Self::Channel(t) => c.within("channel", |c| t.check(c)),
         }
     }
 
@@ -140,6 +194,13 @@ impl TextureDesc {
             Self::Noise(t) => ("noise", vec![("dark", t.dark.texture()), ("light", t.light.texture())]),
             Self::Marble(t) => ("marble", vec![("dark", t.dark.texture()), ("light", t.light.texture())]),
             Self::Wood(t) => ("wood", vec![("dark", t.dark.texture()), ("light", t.light.texture())]),
+            Self::Gradient(t) => ("gradient", vec![("from", t.from.texture()), ("to", t.to.texture())]),
+            Self::VertexColor(_) => ("vertex-color", vec![]),
+            Self::Ramp(t) => ("ramp", vec![("input", t.input.texture())]),
+            Self::Mix(t) => ("mix", vec![("a", t.a.texture()), ("b", t.b.texture()), ("share", t.share.texture())]),
+            Self::Multiply(t) => ("multiply", vec![("a", t.a.texture()), ("b", t.b.texture())]),
+            Self::Invert(t) => ("invert", vec![("input", t.input.texture())]),
+            Self::Channel(t) => ("channel", vec![("input", t.input.texture())]),
         }
     }
 }
@@ -211,7 +272,7 @@ mod tests {
         ]);
         let textures = compile(&textures);
         let color = |p: Vec3| {
-            let at = TexturePoint { uv: Vec2::ZERO, p };
+            let at = TexturePoint { p, ..TexturePoint::default() };
             TexturesAt { textures: &textures, at }.color(0).to_rgb()[0]
         };
         assert_eq!([color(Vec3::splat(0.5)), color(Vec3::new(1.5, 0.5, 0.5))], [1.0, 0.0]);
@@ -222,7 +283,7 @@ mod tests {
         let chain = |n: usize| {
             let texture = |i: usize| {
                 let inner = if i + 1 < n { named(&format!("t{:05}", i + 1)) } else { Color::Rgb(Rgb::grey(0.5)) };
-                (format!("t{i:05}"), checker(inner.clone(), inner))
+                (format!("t{i:05}"), checker(inner, Color::Rgb(Rgb::grey(0.5))))
             };
             let textures: BTreeMap<_, _> = (0..n).map(texture).collect();
             let mut c = Check::default();
@@ -231,6 +292,20 @@ mod tests {
         };
         assert_eq!([chain(1), chain(16), chain(17), chain(20)], [0, 0, 1, 4]);
         assert!(chain(20_000) > 0);
+    }
+
+    /// Few textures can name each other so often that a lookup would never end.
+    #[test]
+    fn not_too_many_of_few() {
+        let pairs = |n: usize| {
+            let both = |i: usize| if i == 0 { Color::Rgb(Rgb::grey(0.5)) } else { named(&format!("t{:02}", i - 1)) };
+            let textures = (0..n).map(|i| (format!("t{i:02}"), checker(both(i), both(i)))).collect();
+            let mut c = Check::default();
+            check(&textures, &mut nesting(&textures), &mut c);
+            c.into_problems().into_iter().map(|p| p.message).collect::<Vec<_>>()
+        };
+        assert_eq!(pairs(9), [""; 0]);
+        assert_eq!(pairs(10), ["the texture is made of too many textures"]);
     }
 
     #[test]

@@ -43,26 +43,43 @@ fn gradient(lattice: Vec3) -> Vec3 {
     EDGES[(((hash >> 32) * 12) >> 32) as usize].into()
 }
 
-/// Layers of noise, each twice as fine and half as strong as the one before: about 0, mostly within -1..1.
-pub(super) fn fbm(p: Vec3, octaves: u32) -> f32 {
-    layers(p, octaves, |x| x)
+/// Layers of noise, each finer and weaker than the one before.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Layers {
+    pub(super) octaves: u32,
+    /// How many times finer.
+    pub(super) lacunarity: f32,
+    /// How many times as strong.
+    pub(super) gain: f32,
 }
 
-/// The same of absolute values: creases, 0..1.
-pub(super) fn turbulence(p: Vec3, octaves: u32) -> f32 {
-    layers(p, octaves, f32::abs)
-}
-
-fn layers(mut p: Vec3, octaves: u32, of: impl Fn(f32) -> f32) -> f32 {
-    // Finer layers are moved, so that their lattices do not meet at 0.
-    const STEP: Vec3 = Vec3::new(37.17, 17.71, 71.37);
-    let (mut sum, mut strength) = (0.0, 1.0);
-    for _ in 0..octaves {
-        sum += strength * of(noise(p));
-        p = 2.0 * p + STEP;
-        strength *= 0.5;
+impl Layers {
+    /// Each twice as fine and half as strong as the one before.
+    pub(super) const fn halves(octaves: u32) -> Self {
+        Self { octaves, lacunarity: 2.0, gain: 0.5 }
     }
-    sum
+
+    /// Their sum: about 0, mostly within -1..1.
+    pub(super) fn fbm(self, p: Vec3) -> f32 {
+        self.sum(p, |x| x)
+    }
+
+    /// The sum of their absolute values: creases, from 0, mostly below 1.
+    pub(super) fn turbulence(self, p: Vec3) -> f32 {
+        self.sum(p, f32::abs)
+    }
+
+    fn sum(self, mut p: Vec3, of: impl Fn(f32) -> f32) -> f32 {
+        // Finer layers are moved, so that their lattices do not meet at 0.
+        const STEP: Vec3 = Vec3::new(37.17, 17.71, 71.37);
+        let (mut sum, mut strength) = (0.0, 1.0);
+        for _ in 0..self.octaves {
+            sum += strength * of(noise(p));
+            p = self.lacunarity * p + STEP;
+            strength *= self.gain;
+        }
+        sum
+    }
 }
 
 #[cfg(test)]

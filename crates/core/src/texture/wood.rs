@@ -15,7 +15,7 @@ use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 use crate::color::{Rgb, Spectrum};
-use crate::texture::perlin::{fbm, noise};
+use crate::texture::perlin::{Layers, noise};
 use crate::texture::{Color, Mapping, Space, TexturesAt};
 use crate::validate::Checker;
 
@@ -57,12 +57,12 @@ impl Wood {
     pub(super) fn color(&self, textures: &TexturesAt<'_>) -> Spectrum {
         let place = self.mapping.place(&textures.at, Space::World);
         let radius = Vec2::new(place.x, place.y).length();
-        let bent = self.distortion * fbm(place * Vec3::new(1.0, 1.0, 0.3) * (0.25 * self.rings), 3);
+        let bent = self.distortion * Layers::halves(3).fbm(place * Vec3::new(1.0, 1.0, 0.3) * (0.25 * self.rings));
         let age = (radius * self.rings + bent).clamp(-1e9, 1e9);
         let within = age - age.floor();
         // From light to dark through the year, and back in its last tenth.
         let ring = if within < 0.9 { (within / 0.9) * (within / 0.9) } else { (1.0 - within) / 0.1 };
         let fibre = Self::FIBRE * noise(place * Vec3::new(12.0, 12.0, 1.0) * self.rings);
-        self.light.at(textures).lerp(self.dark.at(textures), (ring + fibre).clamp(0.0, 1.0))
+        self.light.mixed(&self.dark, (ring + fibre).clamp(0.0, 1.0), textures)
     }
 }

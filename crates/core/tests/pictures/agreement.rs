@@ -10,12 +10,14 @@ use eyebeam_core::film::Image;
 use eyebeam_core::integrator::IntegratorKind;
 use eyebeam_core::light::{DirectionalLight, EnvironmentDesc, ImageEnvironment};
 use eyebeam_core::material::{
-    Conductor, Dielectric, DiffuseTransmission, Emissive, MaterialDesc, Metal, NamedMetal, OrenNayar, Sheen,
-    ThinDielectric,
+    Bump, Conductor, Dielectric, DiffuseTransmission, Emissive, Mask, MaterialDesc, Metal, Mix, NamedMetal, NormalMap,
+    OrenNayar, Sheen, ThinDielectric,
 };
+use eyebeam_core::names::Name;
 use eyebeam_core::render::Settings;
 use eyebeam_core::shape::{MeshDesc, QuadDesc};
 use eyebeam_core::testing::z_test_films;
+use eyebeam_core::texture::{Checker, Color, Mapping, Noise, Scalar, Space, TextureDesc};
 
 use crate::setup::*;
 
@@ -96,6 +98,62 @@ fn lamps() -> SceneDesc {
         material: Some("lamp".to_owned()),
         ..MeshDesc::default()
     });
+    desc
+}
+
+/// Materials made of others, lamps that shine in patterns, and lamps within what absorbs light.
+fn worn() -> SceneDesc {
+    let mut desc = still_life(EnvironmentDesc::default());
+    let named = |name: &str| Name::new(name);
+    let squares = |even: [f32; 3], odd: [f32; 3]| {
+        let mapping = Mapping { space: Some(Space::Uv), scale: [6.0; 3], ..Mapping::default() };
+        TextureDesc::Checker(Checker { even: Rgb(even).into(), odd: Rgb(odd).into(), mapping })
+    };
+    desc.texture.insert("panes".to_owned(), squares([6.0, 5.0, 4.0], [0.5, 1.0, 2.0]));
+    desc.texture.insert("squares".to_owned(), squares([1.0; 3], [0.2; 3]));
+    desc.texture.insert("slopes".to_owned(), squares([0.3, 0.5, 0.9], [0.6, 0.7, 0.9]));
+    desc.texture.insert("dents".to_owned(), TextureDesc::Noise(Noise::default()));
+    let texture = |name: &str| Scalar::Texture(named(name));
+    let absorbing = |eta, roughness: f32| {
+        let absorption = Some(Rgb([0.5, 2.0, 4.0]));
+        MaterialDesc::Dielectric(Dielectric { eta, roughness: roughness.into(), absorption, ..Dielectric::default() })
+    };
+    let panes = Emissive { radiance: Color::Texture(named("panes")), two_sided: true, ..Emissive::default() };
+    for (name, material) in [
+        ("panes", MaterialDesc::Emissive(panes)),
+        ("window", MaterialDesc::Mask(Mask { of: named("panes"), opacity: texture("squares") })),
+        ("rough", metal(0.4)),
+        ("floor", MaterialDesc::Mix(Mix { a: named("rough"), b: named("default"), share: texture("squares") })),
+        ("net", MaterialDesc::Mask(Mask { of: named("floor"), opacity: texture("squares") })),
+        ("dented", MaterialDesc::Bump(Bump { of: named("rough"), height: texture("dents"), scale: 0.3 })),
+        (
+            "tiled",
+            MaterialDesc::NormalMap(NormalMap {
+                of: named("dented"),
+                map: Color::Texture(named("slopes")),
+                strength: 1.0,
+            }),
+        ),
+        ("smoke", absorbing(1.0, 0.0)),
+        ("frosted", absorbing(1.5, 0.7)),
+        ("lamp", lamp(5.0)),
+    ] {
+        with(&mut desc, name, material);
+    }
+    desc.shape.quad[0].material = Some("floor".to_owned());
+    desc.shape.sphere[0].material = Some("net".to_owned());
+    desc.shape.quad.push(quad([-1.0, 2.5, -1.0], [2.0, 0.0, 0.0], [0.0, 0.0, 2.0], "window"));
+    for (center, radius, name) in [
+        ([1.2, 0.6, 0.2], 0.6, "tiled"),
+        ([-1.2, 0.6, 0.2], 0.6, "smoke"),
+        ([-1.2, 0.7, 0.2], 0.25, "lamp"),
+        ([-1.1, 0.2, 0.4], 0.15, "default"),
+        ([0.1, 0.4, 1.2], 0.4, "frosted"),
+        ([0.1, 0.3, 1.2], 0.15, "floor"),
+    ] {
+        desc.shape.sphere.push(sphere(center, radius));
+        desc.shape.sphere.last_mut().unwrap().material = Some(name.to_owned());
+    }
     desc
 }
 
@@ -240,6 +298,7 @@ fn where_light_sampling_helps() {
     check("sun", &sun());
     check("frosted", &frosted());
     check("matte and thin", &matte_and_thin());
+    check("worn", &worn());
 }
 
 #[test]

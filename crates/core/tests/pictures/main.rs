@@ -11,3 +11,4 @@ mod lamps;
 mod motion;
 mod offset;
 mod setup;
+mod textures;

@@ -3,6 +3,7 @@
 use std::num::NonZeroUsize;
 
 use eyebeam_core::camera::{CameraDesc, CameraKey, OrthographicDesc, PanoramaDesc};
+use eyebeam_core::color::Rgb;
 use eyebeam_core::desc::SceneDesc;
 use eyebeam_core::film::{FirstHit, Image};
 use eyebeam_core::first_hits::FirstHits;
@@ -16,7 +17,7 @@ use eyebeam_core::sampler::SamplerKind;
 use eyebeam_core::scene::{Acceleration, BuildOptions, Scene};
 use eyebeam_core::shape::{MeshDesc, QuadDesc, SphereDesc};
 use eyebeam_core::testing::z_test_films;
-use eyebeam_core::texture::{Checker, Color, Mapping, Space, TextureDesc};
+use eyebeam_core::texture::{Checker, Color, Gradient, Mapping, Space, TextureDesc};
 use glam::{Vec2, Vec3};
 
 use crate::setup::*;
@@ -193,7 +194,7 @@ fn what_moves_does_not_shade_itself() {
             MotionKey { scale: 1.5, ..key(1.0, offset, [1.0, 2.0, -1.0], 300.0) },
         ];
         desc.shape.mesh.push(box_mesh(at.map(|x| x - 0.4), at.map(|x| x + 0.3)));
-        desc.shape.mesh[0].motion = motion.clone();
+        (desc.shape.mesh[0].motion, desc.shape.mesh[0].pivot) = (motion.clone(), Some(at));
         assert_everywhere(
             &render(&desc, settings(24, 64, 2)),
             1.0,
@@ -233,13 +234,20 @@ fn hits(desc: &SceneDesc) -> impl Fn(u32, u32) -> FirstHit + use<> {
 fn coordinates_turn_with_the_shape() {
     let mut desc = scene(WHITE, matte(0.5), parallel());
     desc.shape.sphere.push(sphere([0.0; 3], 1.0));
-    let uv = |angle: f32, desc: &mut SceneDesc| {
+    let turned = |angle: f32, desc: &mut SceneDesc| {
         desc.shape.sphere[0].motion = vec![key(0.0, [0.0, 0.25, 0.0], [0.0, 1.0, 0.0], angle)];
-        hits(desc)(16, 14).uv
+        hits(desc)(16, 14)
     };
-    for (angle, u) in [(0.0, 0.25), (45.0, 0.125), (-90.0, 0.5)] {
-        let seen = uv(angle, &mut desc);
-        assert!((seen - Vec2::new(u, 0.5)).length() < 2e-3, "{angle} degrees: {seen}");
+    // From 0 to 1 along the shape's x.
+    let mapping = Mapping { space: Some(Space::Object), scale: [0.5; 3], offset: [0.5; 3], ..Mapping::default() };
+    let gradient = Gradient { from: Rgb::grey(0.0).into(), to: Rgb::grey(1.0).into(), mapping, ..Gradient::default() };
+    desc.texture.insert("across".to_owned(), TextureDesc::Gradient(gradient));
+    let across = Lambertian { albedo: Color::Texture(Name::new("across")) };
+    desc.material.insert("it".to_owned(), MaterialDesc::Lambertian(across));
+    for (angle, u, x) in [(0.0, 0.25, 0.0), (45.0, 0.125, -0.5_f32.sqrt()), (-90.0, 0.5, 1.0)] {
+        let seen = turned(angle, &mut desc);
+        assert!((seen.uv - Vec2::new(u, 0.5)).length() < 2e-3, "{angle} degrees: {seen:?}");
+        assert!((seen.albedo[0] - (0.5 + 0.5 * x)).abs() < 2e-3, "{angle} degrees: {seen:?}");
     }
 }
 

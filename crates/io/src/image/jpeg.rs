@@ -13,6 +13,7 @@ use crate::image::encoding::{Encoding, look_json, pixels};
 pub(super) const MAX_SIDE: u32 = 65535;
 
 pub(super) fn encode(image: &Image, provenance: &str, encoding: &Encoding) -> Result<Vec<u8>, Error> {
+    let image = &*encoding.look.through_lens(image);
     let grade = encoding.look.grade(image);
     // Colours that are multiplied by alpha are colours over black.
     let samples: Vec<_> = pixels(image, |rgb, x, y| grade.byte(rgb, x, y)).collect();

@@ -9,7 +9,10 @@ mod read;
 
 pub use encoding::{Bits, Encoding};
 pub use exr::encode_channels;
-pub use read::{LinearPicture, read_image, read_image_bytes, read_linear, read_linear_bytes};
+pub use read::{
+    LinearPicture, pixels_size, read_image, read_image_bytes, read_linear, read_linear_bytes, read_pixels,
+    read_pixels_bytes,
+};
 
 use std::path::Path;
 

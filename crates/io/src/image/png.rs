@@ -14,6 +14,7 @@ pub(super) fn encode(image: &Image, provenance: &str, encoding: &Encoding) -> Re
 }
 
 fn write(image: &Image, provenance: &str, encoding: &Encoding, bytes: &mut Vec<u8>) -> Result<(), EncodingError> {
+    let image = &*encoding.look.through_lens(image);
     let grade = encoding.look.grade(image);
     let mut encoder = Encoder::new(bytes, image.width(), image.height());
     encoder.set_color(if image.alpha().is_some() { ColorType::Rgba } else { ColorType::Rgb });
@@ -94,8 +95,8 @@ mod tests {
         assert_eq!((info.width, info.height), (3, 2));
         assert_eq!(info.srgb, Some(SrgbRenderingIntent::Perceptual));
         let texts = info.utf8_text.iter().map(|text| (text.keyword.as_str(), text.get_text().unwrap()));
-        let look = "{\"view\":\"standard\",\"exposure\":0.0,\"white_balance\":6500.0,\"contrast\":1.0,\
-            \"saturation\":1.0,\"dither\":false,\"ev\":0.0}";
+        let look = "{\"view\":\"standard\",\"bloom\":0.0,\"vignette\":0.0,\"exposure\":0.0,\"white_balance\":6500.0,\
+            \"contrast\":1.0,\"saturation\":1.0,\"dither\":false,\"ev\":0.0}";
         let expected = [("eyebeam", "{\"spp\":4}".to_owned()), ("eyebeam.look", look.to_owned())];
         assert!(texts.eq(expected), "{:?}", info.utf8_text);
     }

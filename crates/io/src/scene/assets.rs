@@ -1,4 +1,4 @@
-//! The files that a scene names: pictures, meshes, profiles of lamps.
+//! The files that a scene names: pictures, meshes, profiles of lamps. Those of textures are in [`textures`](super::textures).
 //!
 //! A file is read once, however often it is named, and shared.
 
@@ -10,12 +10,12 @@ use eyebeam_core::desc::SceneDesc;
 use eyebeam_core::film::Image;
 use eyebeam_core::light::{EnvironmentDesc, IesProfile};
 use eyebeam_core::shape::MeshData;
-use eyebeam_core::texture::TextureDesc;
 
 use crate::error::{At, Error, FileError};
 use crate::ies::read_ies;
 use crate::image::read_image;
 use crate::scene::ply::{self, read_ply};
+use crate::scene::textures;
 use crate::warning::Warning;
 
 /// No more files are read once those before take so much memory.
@@ -50,11 +50,7 @@ pub(super) fn load<'a>(desc: &mut SceneDesc, folder_of: impl Fn(&[String]) -> Op
     for (i, light) in desc.light.projector.iter_mut().enumerate() {
         light.image = loader.get(&mut images, path(&["light", "projector"], Some(i)), &light.file);
     }
-    for (name, texture) in &mut desc.texture {
-        if let TextureDesc::Image(texture) = texture {
-            texture.image = loader.get(&mut images, path(&["texture", name, "image"], None), &texture.file);
-        }
-    }
+    textures::load(&mut loader, &mut desc.texture);
     let mut profiles = Cache::default();
     for (i, light) in desc.light.ies.iter_mut().enumerate() {
         light.profile = loader.get(&mut profiles, path(&["light", "ies"], Some(i)), &light.file);
@@ -69,7 +65,7 @@ pub(super) fn load<'a>(desc: &mut SceneDesc, folder_of: impl Fn(&[String]) -> Op
 }
 
 /// Keys down to a `file`.
-fn path(keys: &[&str], index: Option<usize>) -> Vec<String> {
+pub(super) fn path(keys: &[&str], index: Option<usize>) -> Vec<String> {
     let keys = keys.iter().map(|key| (*key).to_owned());
     keys.chain(index.map(|i| i.to_string())).chain(["file".to_owned()]).collect()
 }
@@ -104,8 +100,8 @@ impl Asset for IesProfile {
 
 impl Asset for MeshData {
     fn read(path: &Path) -> Result<(Self, Vec<Warning>), Error> {
-        let ply::MeshData { vertices, normals, uvs, triangles } = read_ply(path)?;
-        Ok((Self { vertices, triangles, normals, uvs }, Vec::new()))
+        let ply::MeshData { vertices, normals, uvs, colors, triangles } = read_ply(path)?;
+        Ok((Self { vertices, triangles, normals, uvs, colors }, Vec::new()))
     }
 
     fn bytes(&self) -> usize {
@@ -113,6 +109,7 @@ impl Asset for MeshData {
             + size_of_val(&*self.triangles)
             + size_of_val(&*self.normals)
             + size_of_val(&*self.uvs)
+            + size_of_val(&*self.colors)
     }
 }
 
@@ -121,7 +118,7 @@ type Cache<T> = BTreeMap<PathBuf, Result<Arc<T>, Failure>>;
 
 /// Why a file is not read. The message goes on where the name of the file ends.
 #[derive(Clone)]
-struct Failure {
+pub(super) struct Failure {
     message: String,
     hint: Option<String>,
     kind: Kind,
@@ -155,17 +152,32 @@ impl From<Error> for Failure {
     }
 }
 
-struct Loader<F> {
+/// Reads files, and remembers what is to be said of them.
+pub(super) struct Loader<F> {
     folder_of: F,
     /// That what was read takes.
     bytes: u64,
     notes: Vec<Note>,
 }
 
+/// Where a file is.
+pub(super) struct Found {
+    /// As it was named.
+    pub(super) file: PathBuf,
+    /// The same for all names of a file.
+    pub(super) real: PathBuf,
+}
+
 impl<'a, F: Fn(&[String]) -> Option<&'a Path>> Loader<F> {
     /// The file that is named at a path of keys; none, and a note, if it cannot be had.
     fn get<T: Asset>(&mut self, cache: &mut Cache<T>, path: Vec<String>, name: &str) -> Option<Arc<T>> {
-        let Failure { message, hint, kind } = match self.find(cache, &path, name) {
+        let asset = self.read_once(cache, &path, name);
+        self.or_note(path, name, asset)
+    }
+
+    /// What was read; none, and a note, if that has failed.
+    pub(super) fn or_note<T>(&mut self, path: Vec<String>, name: &str, asset: Result<T, Failure>) -> Option<T> {
+        let Failure { message, hint, kind } = match asset {
             Ok(asset) => return Some(asset),
             Err(failure) => failure,
         };
@@ -173,12 +185,38 @@ impl<'a, F: Fn(&[String]) -> Option<&'a Path>> Loader<F> {
         None
     }
 
-    fn find<T: Asset>(&mut self, cache: &mut Cache<T>, path: &[String], name: &str) -> Result<Arc<T>, Failure> {
+    /// Notes what could not be kept of a file.
+    pub(super) fn warn(&mut self, path: &[String], name: &str, warnings: Vec<Warning>) {
+        self.notes.extend(warnings.into_iter().map(|Warning { message, hint, .. }| Note {
+            path: path.to_vec(),
+            message: format!("`{name}`: {message}"),
+            hint,
+            kind: Kind::Warning,
+        }));
+    }
+
+    /// Where the file is that is named at a path of keys.
+    pub(super) fn find(&self, path: &[String], name: &str) -> Result<Found, Failure> {
         let Some(folder) = (self.folder_of)(path) else {
             return Err(Failure::wrong("cannot be read: this scene has no folder", "save the scene as a file"));
         };
         let file = folder.join(name);
         let real = file.canonicalize().map_err(|e| Failure::unreadable(&e))?;
+        Ok(Found { file, real })
+    }
+
+    /// Counts memory that is about to be used; fails if those before have used too much.
+    pub(super) fn take(&mut self, bytes: u64) -> Result<(), Failure> {
+        if self.bytes > MAX_BYTES {
+            let message = format!("is not read: the files before it take more than {} GiB", MAX_BYTES >> 30);
+            return Err(Failure::wrong(&message, "use fewer or smaller files"));
+        }
+        self.bytes = self.bytes.saturating_add(bytes);
+        Ok(())
+    }
+
+    fn read_once<T: Asset>(&mut self, cache: &mut Cache<T>, path: &[String], name: &str) -> Result<Arc<T>, Failure> {
+        let Found { file, real } = self.find(path, name)?;
         if let Some(known) = cache.get(&real) {
             return known.clone();
         }
@@ -188,18 +226,10 @@ impl<'a, F: Fn(&[String]) -> Option<&'a Path>> Loader<F> {
     }
 
     fn read<T: Asset>(&mut self, file: &Path, path: &[String], name: &str) -> Result<Arc<T>, Failure> {
-        if self.bytes > MAX_BYTES {
-            let message = format!("is not read: the files before it take more than {} GiB", MAX_BYTES >> 30);
-            return Err(Failure::wrong(&message, "use fewer or smaller files"));
-        }
+        self.take(0)?;
         let (asset, warnings) = T::read(file)?;
-        self.bytes += asset.bytes() as u64;
-        self.notes.extend(warnings.into_iter().map(|Warning { message, hint, .. }| Note {
-            path: path.to_vec(),
-            message: format!("`{name}`: {message}"),
-            hint,
-            kind: Kind::Warning,
-        }));
+        self.take(asset.bytes() as u64)?;
+        self.warn(path, name, warnings);
         Ok(Arc::new(asset))
     }
 }

@@ -94,7 +94,7 @@ pub(super) fn nearest_material(desc: &SceneDesc, message: &str) -> Option<String
 /// ` in material "wall"`: where in the scene a path leads.
 pub(super) fn place_name(path: &[String]) -> String {
     match path.iter().map(String::as_str).collect::<Vec<_>>()[..] {
-        ["material", name, ..] => format!(" in material \"{name}\""),
+        [table @ ("material" | "texture"), name, ..] => format!(" in {table} \"{name}\""),
         ["shape", kind, _, ..] => format!(" in a {kind}"),
         ["light", kind, _, ..] => format!(" in a light of kind {kind}"),
         ["environment"] => " in environment".to_owned(),

@@ -6,6 +6,7 @@ mod merge;
 mod nesting;
 pub mod ply;
 mod source;
+mod textures;
 mod toml;
 
 use std::path::Path;

@@ -3,7 +3,9 @@
 use std::time::{Duration, Instant};
 
 use eyebeam_core::film::Image;
-use eyebeam_io::image::{Encoding, ImageFormat, read_image, read_image_bytes, read_linear_bytes};
+use eyebeam_io::image::{
+    Encoding, ImageFormat, pixels_size, read_image, read_image_bytes, read_linear_bytes, read_pixels_bytes,
+};
 use eyebeam_io::{Error, Warning};
 use proptest::prelude::*;
 
@@ -14,7 +16,14 @@ fn try_image(bytes: &[u8]) -> Option<Image> {
     let start = Instant::now();
     let read = read_image_bytes("a", bytes).map_err(|error| flaw(error, bytes));
     assert!(start.elapsed() < Duration::from_secs(20), "{:?}", start.elapsed());
-    let (image, _) = read.ok()?;
+    let pixels = read_pixels_bytes("a", bytes).map_err(|error| flaw(error, bytes));
+    assert_eq!(read.is_ok(), pixels.is_ok());
+    let (image, warnings) = read.ok()?;
+    // As it is in the file, it is the same picture.
+    if let Ok((pixels, _)) = pixels {
+        assert!(pixels.to_image() == image || !warnings.is_empty());
+        assert!(pixels_size("a", bytes).unwrap() >= pixels.bytes() as u64);
+    }
     assert!(image.pixels().iter().flatten().all(|c| (0.0..f32::INFINITY).contains(c)));
     Some(image)
 }

@@ -52,6 +52,24 @@ fn any_order_and_anything_else() {
     assert_eq!(read(TEXT.trim_end()), mesh);
 }
 
+#[test]
+fn colours_of_vertices() {
+    let text = |kind: &str, names: [&str; 3], rows: [&str; 3]| {
+        let properties = names.map(|name| format!("property {kind} {name}\n")).concat();
+        let rows = rows.map(|row| format!("0 0 0 {row}\n")).concat();
+        format!(
+            "ply\nformat ascii 1.0\nelement vertex 3\nproperty float x\nproperty float y\nproperty float z\n{properties}\
+             element face 1\nproperty list uchar int vertex_indices\nend_header\n{rows}3 0 1 2\n"
+        )
+    };
+    // Bytes are as screens show them, other numbers are light.
+    let bytes = read(&text("uchar", ["red", "green", "blue"], ["255 0 188", "0 0 0", "1 2 3"])).colors;
+    assert!(bytes.len() == 3 && bytes[0][..2] == [1.0, 0.0] && (bytes[0][2] - 0.5).abs() < 0.005, "{bytes:?}");
+    let floats = read(&text("float", ["r", "g", "b"], ["0.5 2 0.25", "-1 nan 0", "inf 1 1"])).colors;
+    assert_eq!(floats, [[0.5, 2.0, 0.25], [0.0; 3], [0.0, 1.0, 1.0]]);
+    assert!(read(&text("uchar", ["red", "green", "alpha"], ["1 2 3"; 3])).colors.is_empty());
+}
+
 /// The same in binary.
 fn binary(big_endian: bool) -> Vec<u8> {
     let format = if big_endian { "binary_big_endian" } else { "binary_little_endian" };

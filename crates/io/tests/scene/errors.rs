@@ -134,6 +134,37 @@ fn motion() {
 }
 
 #[test]
+fn materials_of_others() {
+    let said = report(&[
+        "▸[material.a.mix]\na = \"b\"\nb = \"default\"\n▸[material.b.bump]\nof = \"a\"\nheight = 1",
+        "▸[material.a.mask]\nof = \"a\"\nopacity = 0.5",
+        "[material.a.mix]\na = \"default\"\nb = ▸\"nothing\"\nshare = ▸2",
+        "[material.a.mask]\nof = \"default\"\nopacity = ▸\"leaf\"",
+        "▸[material.a.mask]\nof = \"default\"",
+        "[material.a.normal-map]\nof = \"default\"\nmap = ▸\"waves\"\nstrength = ▸nan",
+        "[material.a.bump]\nof = \"default\"\nheight = ▸1e9\nscale = ▸inf",
+        "[material.a.null]\n▸opacity = 0",
+        "[material.m.metal]\nroughness = ▸\"scratches\"",
+        "[material.m.emissive]\nradiance = ▸\"screen\"",
+    ]);
+    insta::assert_snapshot!(said);
+}
+
+#[test]
+fn fillings() {
+    let said = report(&[
+        "[material.m.dielectric]\nabsorption = ▸[1, -1, 1]",
+        "[material.m.dielectric]\nabsorption = ▸nan",
+        "[material.m.dielectric]\ntransmittance = ▸1.5",
+        "[material.m.dielectric]\ntransmittance = ▸0.5\nabsorption = 1",
+        "[material.m.dielectric]\ntransmittance = 0.5\ntransmittance_distance = ▸0",
+        "[material.m.dielectric]\npriority = ▸1001\neta = ▸-1.5",
+        "[material.m.dielectric]\npriority = ▸-1",
+    ]);
+    insta::assert_snapshot!(said);
+}
+
+#[test]
 fn syntax() {
     let said = report(&[
         "[camera]\nvfov = ▸",

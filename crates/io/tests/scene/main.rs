@@ -7,6 +7,7 @@ mod includes;
 mod robustness;
 mod schema;
 mod settings;
+mod textures;
 
 use eyebeam_io::scene::{Override, read_str};
 use eyebeam_io::{Diagnostic, Error};

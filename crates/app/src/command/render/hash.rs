@@ -4,7 +4,7 @@ use eyebeam_core::desc::{RenderDesc, SceneDesc};
 use eyebeam_core::film::Image;
 use eyebeam_core::light::{EnvironmentDesc, IesProfile};
 use eyebeam_core::shape::MeshData;
-use eyebeam_core::texture::TextureDesc;
+use eyebeam_core::texture::{Pixels, Samples, TextureDesc};
 use sha2::{Digest, Sha256};
 
 /// SHA-256 of a scene but for its `render` settings: of its JSON, then of the numbers in each file in the order in which
@@ -20,7 +20,7 @@ pub(super) fn scene_hash(desc: &SceneDesc) -> String {
     desc.light.projector.iter().filter_map(|l| l.image.as_ref()).for_each(|image| hash.image(image));
     for texture in desc.texture.values() {
         if let TextureDesc::Image(texture) = texture {
-            texture.image.iter().for_each(|image| hash.image(image));
+            texture.pixels.iter().for_each(|pixels| hash.pixels(pixels));
         }
     }
     desc.light.ies.iter().filter_map(|l| l.profile.as_ref()).for_each(|profile| hash.profile(profile));
@@ -46,6 +46,15 @@ impl Hash {
         self.floats(image.pixels().as_flattened());
     }
 
+    fn pixels(&mut self, pixels: &Pixels) {
+        self.numbers([pixels.width(), pixels.height(), pixels.channels() as u32].into_iter().map(u32::to_le_bytes));
+        match pixels.samples() {
+            Samples::Byte(bytes) => self.0.update(bytes),
+            Samples::Word(words) | Samples::Half(words) => words.iter().for_each(|w| self.0.update(w.to_le_bytes())),
+            Samples::Float(floats) => self.floats(floats),
+        }
+    }
+
     fn profile(&mut self, profile: &IesProfile) {
         [profile.vertical(), profile.horizontal(), profile.candela()].into_iter().for_each(|list| self.floats(list));
     }
@@ -54,6 +63,7 @@ impl Hash {
         self.floats(mesh.vertices.as_flattened());
         self.floats(mesh.normals.as_flattened());
         self.floats(mesh.uvs.as_flattened());
+        self.floats(mesh.colors.as_flattened());
         self.numbers(mesh.triangles.as_flattened().iter().map(|i| i.to_le_bytes()));
     }
 }
@@ -106,8 +116,8 @@ mod tests {
             desc
         };
         let with_texture = |value| {
-            let texture: ImageTexture = from_value(json!({ "file": "a.png" })).unwrap();
-            let texture = TextureDesc::Image(ImageTexture { image: image(value), ..texture });
+            let pixels = Pixels::new(2, 1, 1, Samples::Float(vec![0.0, value])).map(Arc::new);
+            let texture = TextureDesc::Image(ImageTexture::new("a.png", pixels));
             SceneDesc { texture: [("a".to_owned(), texture)].into(), ..SceneDesc::default() }
         };
         let kinds: [&dyn Fn(f32) -> SceneDesc; 5] = [&with_sky, &with_slide, &with_lamp, &with_mesh, &with_texture];

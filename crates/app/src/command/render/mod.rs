@@ -43,7 +43,7 @@ pub(super) fn run(args: &RenderArgs) -> Result<(), Error> {
     let aovs = args.aovs();
     settings.film.variance = aovs.contains(&Aov::Variance);
     check_format(&target, &settings, &aovs)?;
-    check_memory(&settings, &aovs, args.memory)?;
+    check_memory(&settings, &aovs, target.lens_bytes(), args.memory)?;
     target.check_writable()?;
     if let Some(path) = args.stats.as_deref().filter(|path| !is_standard(path)) {
         check_writable(path)?;
@@ -106,13 +106,13 @@ fn describe(args: &RenderArgs) -> Result<SceneFile, Error> {
     Ok(file)
 }
 
-/// Film and picture, and the encoded file.
-fn check_memory(settings: &Settings, aovs: &[Aov], allowed: u64) -> Result<(), Error> {
+/// Film and picture, what the lens needs for each pixel, and the encoded file.
+fn check_memory(settings: &Settings, aovs: &[Aov], lens: u64, allowed: u64) -> Result<(), Error> {
     // 16 bytes a pixel and format at most, and as much again while the file grows or its pixels are copied.
     const ENCODING: u64 = 32;
     let pixels = u64::from(settings.width) * u64::from(settings.height);
     let film = Film::bytes(settings.width, settings.height, &settings.film);
-    let needed = film + ENCODING * pixels + Aovs::bytes(settings, aovs);
+    let needed = film + (ENCODING + lens) * pixels + Aovs::bytes(settings, aovs);
     if needed > allowed { Err(Error::Memory { needed, allowed }) } else { Ok(()) }
 }
 

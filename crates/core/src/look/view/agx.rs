@@ -1,4 +1,7 @@
-//! AgX by Troy Sobotka, without an additional look: colours fade to white as they grow bright, as in photographs.
+//! AgX by Troy Sobotka: colours fade to white as they grow bright, as in photographs.
+//!
+//! The curve alone, `agx-base`, is flat, made to be developed further; `agx` gives it the contrast (1.3, about middle grey) and
+//! the saturation (1.2) that made ten pictures look best.
 //!
 //! ```text
 //! v = 0.8 c + 0.2 g,   g = w · c                     a little of each primary goes into the others
@@ -14,7 +17,7 @@
 //! Sobotka, "AgX", 2022 (github.com/sobotka/AgX: its curve and inset); the way back is from Wrensch, "Minimal AgX
 //! Implementation", 2023 (iolite-engine.com/blog_posts/minimal_agx_implementation), in closed form instead of rounded numbers.
 
-use crate::look::MIDDLE_GREY;
+use crate::look::{MIDDLE_GREY, tone};
 
 /// How far primaries move to white.
 const INSET: f32 = 0.2;
@@ -32,7 +35,15 @@ const SHOULDER: f32 = 3.25;
 /// Light beyond it is as bright as this.
 const BRIGHTEST: f32 = 1e20;
 
+/// Contrast and saturation of a developed picture.
+const CONTRAST: f32 = 1.3;
+const SATURATION: f32 = 1.2;
+
 pub(super) fn signal(rgb: [f32; 3]) -> [f32; 3] {
+    base(tone::saturate(rgb.map(|c| tone::contrast(c, CONTRAST)), SATURATION))
+}
+
+pub(super) fn base(rgb: [f32; 3]) -> [f32; 3] {
     let rgb = rgb.map(|c| c.min(BRIGHTEST));
     let grey = shares(rgb);
     let y = rgb.map(|c| sigmoid(log_encode((1.0 - INSET) * c + INSET * grey)));
@@ -77,7 +88,7 @@ mod tests {
             let fitted = terms.iter().rev().fold(0.0, |sum, term| sum * x + term);
             assert!((f64::from(sigmoid(x as f32)) - fitted).abs() < 6e-3, "{x}: {} and {fitted}", sigmoid(x as f32));
         }
-        let [r, g, b] = signal([0.18; 3]);
+        let [r, g, b] = base([0.18; 3]);
         assert!([r, g, b].iter().all(|c| (c - 0.5).abs() < 1e-5), "{r} {g} {b}");
     }
 
@@ -95,9 +106,9 @@ mod tests {
 
     #[test]
     fn bright_colours_fade_to_white() {
-        let [r, g, b] = signal([20.0, 0.0, 0.0]);
+        let [r, g, b] = base([20.0, 0.0, 0.0]);
         assert!(r == 1.0 && g.min(b) > 0.5, "{r} {g} {b}");
-        let [r, g, b] = signal([0.1, 0.0, 0.0]);
+        let [r, g, b] = base([0.1, 0.0, 0.0]);
         assert!(r > g.max(b) + 0.2, "{r} {g} {b}");
     }
 }

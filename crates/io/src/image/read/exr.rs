@@ -5,20 +5,27 @@
 
 use std::io::Cursor;
 
+use exr::block::samples::FromNativeSample;
 use exr::block::{self, reader::Reader};
 use exr::error::Error as ExrError;
 use exr::image::read::specific_channels::ReadSpecificChannel;
 use exr::math::Vec2;
+use exr::meta::attribute::SampleType;
 use exr::meta::attribute::{AttributeValue, Text};
 use exr::meta::header::Header;
-use exr::prelude::{ReadChannels, ReadLayers, read};
+use exr::prelude::{ReadChannels, ReadLayers, f16, read};
 use eyebeam_core::film::Image;
+use eyebeam_core::texture::{Pixels, Samples};
 
 use crate::error::FileError;
 use crate::image::exr::REC_709;
+use crate::image::read::pixels::{compact, pixels};
+use crate::image::read::repair::repair;
 use crate::image::read::{Decoded, LinearPicture, check_size};
 use crate::warning::Warning;
 
+/// Of a picture with alpha in single precision.
+const BYTES_PER_PIXEL: u64 = 16;
 /// A block of lines or a tile is decoded at once.
 const MAX_BLOCK: usize = 1 << 30;
 
@@ -30,13 +37,65 @@ pub(super) fn decode(bytes: &[u8]) -> Decoded {
 
 /// As [`decode`], with alpha if not all of it is 1, and with the attribute that says in JSON what made the picture.
 pub(super) fn decode_linear(bytes: &[u8]) -> Result<LinearPicture, FileError> {
-    let Opened { file, color, alpha, provenance, warnings } = open(bytes)?;
+    let Opened { file, color, alpha, provenance, warnings, .. } = open(bytes)?;
     let image = match (color, alpha) {
         (true, true) => decode_rgba(file),
         (true, false) => decode_rgb(file),
         (false, _) => decode_y(file),
     };
     Ok(LinearPicture { image: image.map_err(wrong)?, provenance, warnings })
+}
+
+/// As they are in the file: in 16 bits if all that is read is. What is infinite, no number or negative is put right.
+pub(super) fn decode_pixels(bytes: &[u8]) -> Result<(Pixels, Vec<Warning>), FileError> {
+    let Opened { file, color, half, mut warnings, .. } = open(bytes)?;
+    let (size, channels, samples) = if half {
+        let (size, channels, samples) = collect(file, color).map_err(wrong)?;
+        let mut bits: Vec<_> = samples.into_iter().map(f16::to_bits).collect();
+        warnings.extend(repair(&mut bits, channels, 0, |bits| f16::from_bits(bits).to_f32()));
+        let (channels, bits) = compact(channels, bits, f16::ONE.to_bits());
+        (size, channels, Samples::Half(bits))
+    } else {
+        let (size, channels, mut samples) = collect(file, color).map_err(wrong)?;
+        warnings.extend(repair(&mut samples, channels, 0.0, |c| c));
+        let (channels, samples) = compact(channels, samples, 1.0);
+        (size, channels, Samples::Float(samples))
+    };
+    Ok((pixels(size, channels, samples)?, warnings))
+}
+
+/// The memory that pixels take, by the header alone, at most.
+pub(super) fn size(bytes: &[u8]) -> Result<u64, FileError> {
+    open(bytes).map(|opened| opened.memory)
+}
+
+/// The size, and the numbers of either colour and alpha, 1 where there is none, or of grey.
+fn collect<T: FromNativeSample>(
+    file: Reader<Cursor<&[u8]>>,
+    color: bool,
+) -> Result<([u32; 2], usize, Vec<T>), ExrError> {
+    let read = read().no_deep_data().largest_resolution_level().specific_channels();
+    let size = |Vec2(width, height)| [width as u32, height as u32];
+    if !color {
+        let pixels = read.required("Y").collect_pixels(
+            |Vec2(width, height), _| (size(Vec2(width, height)), vec![T::default(); width * height]),
+            |(size, samples): &mut ([u32; 2], Vec<T>), Vec2(x, y), (luminance,): (T,)| {
+                samples[y * size[0] as usize + x] = luminance;
+            },
+        );
+        let file = pixels.first_valid_layer().all_attributes().non_parallel().from_chunks(file)?;
+        let (size, samples) = file.layer_data.channel_data.pixels;
+        return Ok((size, 1, samples));
+    }
+    let pixels = read.required("R").required("G").required("B").optional("A", T::from_f32(1.0)).collect_pixels(
+        |Vec2(width, height), _| (size(Vec2(width, height)), vec![[T::default(); 4]; width * height]),
+        |(size, samples): &mut ([u32; 2], Vec<[T; 4]>), Vec2(x, y), (r, g, b, a): (T, T, T, T)| {
+            samples[y * size[0] as usize + x] = [r, g, b, a];
+        },
+    );
+    let file = pixels.first_valid_layer().all_attributes().non_parallel().from_chunks(file)?;
+    let (size, samples) = file.layer_data.channel_data.pixels;
+    Ok((size, 4, samples.into_flattened()))
 }
 
 fn wrong(e: ExrError) -> FileError {
@@ -50,6 +109,10 @@ struct Opened<'b> {
     color: bool,
     /// Whether they come with alpha.
     alpha: bool,
+    /// Whether all of these are in 16 bits.
+    half: bool,
+    /// What its pixels take, at most.
+    memory: u64,
     provenance: Option<String>,
     warnings: Vec<Warning>,
 }
@@ -61,13 +124,16 @@ fn open(bytes: &[u8]) -> Result<Opened<'_>, FileError> {
     let color = with(&["R", "G", "B"]);
     let header = color.or_else(|| with(&["Y"])).ok_or_else(|| no_channels(headers))?;
     let Vec2(width, height) = header.layer_size;
-    check_size(width as u64, height as u64, size_of::<f32>() as u64)?;
+    let memory = check_size(width as u64, height as u64, BYTES_PER_PIXEL)?;
     if header.max_block_byte_size() > MAX_BLOCK {
         return Err(FileError::new("the blocks of the OpenEXR picture are too large").hint("store it in scan lines"));
     }
     let (color, alpha) = (color.is_some(), channel(header, "A"));
+    let is_read = |name: &Text| ["R", "G", "B", "A"].iter().any(|read| name.eq(read)) || !color && name.eq("Y");
+    let mut read = header.channels.list.iter().filter(|c| is_read(&c.name));
+    let half = read.all(|c| c.sample_type == SampleType::F16);
     let (provenance, warnings) = (provenance(header), warnings(header, !color));
-    Ok(Opened { file, color, alpha, provenance, warnings })
+    Ok(Opened { file, color, alpha, half, memory, provenance, warnings })
 }
 
 fn provenance(header: &Header) -> Option<String> {
@@ -169,6 +235,24 @@ mod tests {
             assert_eq!(pixels(&encode(compression, &channels)), expected, "{compression:?}");
         }
         assert_eq!(pixels(&encode(Compression::ZIP16, &[("Y", half)])), [[0.5; 3], [1.0; 3], [2.0; 3]]);
+    }
+
+    /// Only if every channel that is read has 16 bits they stay so.
+    #[test]
+    fn pixels_are_as_wide_as_in_the_file() {
+        let half = |values: [f32; 3]| FlatSamples::F16(values.map(f16::from_f32).to_vec());
+        let decode =
+            |channels: &[(&str, FlatSamples)]| super::decode_pixels(&encode(Compression::ZIP1, channels)).unwrap();
+        let values = [0.5, 1.0, -2.0];
+        let [r, g, b] = [half(values), half([0.25; 3]), half([f32::NAN, 1.0, f32::INFINITY])];
+        let (pixels, warnings) = decode(&[("R", r.clone()), ("G", g.clone()), ("B", b.clone()), ("Z", r.clone())]);
+        assert_eq!((pixels.channels(), pixels.bytes(), warnings.len()), (3, 18, 1));
+        assert_eq!(pixels.to_image().pixels(), [[0.5, 0.25, 0.0], [1.0, 0.25, 1.0], [0.0, 0.25, 1.0]]);
+        let float = FlatSamples::F32(vec![1.0, 1.0, 0.5]);
+        let (pixels, _) = decode(&[("R", r.clone()), ("G", g), ("B", b), ("A", float)]);
+        assert_eq!((pixels.channels(), pixels.bytes()), (4, 48));
+        let (pixels, _) = decode(&[("Y", r)]);
+        assert_eq!((pixels.channels(), pixels.bytes()), (1, 6));
     }
 
     #[test]

@@ -4,17 +4,15 @@
 //! the last one n times (old). Ward, "Real Pixels", Graphics Gems II, 1991; the Radiance file formats.
 
 use crate::error::{At, FileError};
-use crate::image::read::{Decoded, canvas};
+use crate::image::read::{Decoded, LINEAR, canvas, check_size};
 use crate::warning::Warning;
 
 pub(super) fn decode(bytes: &[u8]) -> Decoded {
     let mut file = Bytes { bytes, at: 0 };
     let warnings = read_header(&mut file)?;
-    let layout = Layout::parse(file.line()?).ok_or_else(|| {
-        file.error("the size of the Radiance picture is not understood").hint("it is like `-Y 512 +X 1024`")
-    })?;
+    let layout = read_layout(&mut file)?;
     let (width, height) = layout.size();
-    let mut image = canvas(width, height, 0)?;
+    let mut image = canvas(width, height)?;
     let mut line = vec![[0; 4]; layout.minor.length as usize];
     for i in 0..layout.major.length {
         read_line(&mut file, &mut line)?;
@@ -24,6 +22,20 @@ pub(super) fn decode(bytes: &[u8]) -> Decoded {
         }
     }
     Ok((image, warnings))
+}
+
+/// The memory that pixels take, by the header alone.
+pub(super) fn size(bytes: &[u8]) -> Result<u64, FileError> {
+    let mut file = Bytes { bytes, at: 0 };
+    read_header(&mut file)?;
+    let (width, height) = read_layout(&mut file)?.size();
+    check_size(width, height, LINEAR)
+}
+
+fn read_layout(file: &mut Bytes) -> Result<Layout, FileError> {
+    Layout::parse(file.line()?).ok_or_else(|| {
+        file.error("the size of the Radiance picture is not understood").hint("it is like `-Y 512 +X 1024`")
+    })
 }
 
 fn radiance([r, g, b, e]: [u8; 4]) -> [f32; 3] {

@@ -1,16 +1,20 @@
 //! Pictures that scenes refer to: OpenEXR, Radiance HDR, PNG and JPEG, told apart by their first bytes.
 //!
 //! What comes out is linear Rec. 709 without alpha, finite and not negative. OpenEXR and Radiance are linear already;
-//! PNG and JPEG are decoded as sRGB, whatever profile they carry.
+//! PNG and JPEG are decoded as sRGB, whatever profile they carry. Pictures of textures stay as they are in the file.
 
 mod exr;
 mod hdr;
+mod pixels;
 mod repair;
-mod srgb;
+mod signals;
+
+pub use pixels::{pixels_size, read_pixels, read_pixels_bytes};
 
 use std::path::Path;
 
 use eyebeam_core::film::Image;
+use eyebeam_core::texture::Pixels;
 
 use crate::error::{Error, FileError};
 use crate::file;
@@ -35,7 +39,7 @@ pub fn read_image(path: &Path) -> Result<(Image, Vec<Warning>), Error> {
 /// If the bytes are damaged, or the picture is too large.
 pub fn read_image_bytes(name: &str, bytes: &[u8]) -> Result<(Image, Vec<Warning>), Error> {
     let (mut image, mut warnings) = decode(bytes).map_err(|e| e.of(name))?;
-    warnings.extend(repair::repair(&mut image));
+    warnings.extend(repair_image(&mut image));
     Ok((image, warnings))
 }
 
@@ -66,8 +70,12 @@ pub fn read_linear(path: &Path) -> Result<LinearPicture, Error> {
 /// If the bytes are damaged, the picture is too large, or of another format.
 pub fn read_linear_bytes(name: &str, bytes: &[u8]) -> Result<LinearPicture, Error> {
     let mut picture = decode_linear(bytes).map_err(|e| e.of(name))?;
-    picture.warnings.extend(repair::repair(&mut picture.image));
+    picture.warnings.extend(repair_image(&mut picture.image));
     Ok(picture)
+}
+
+fn repair_image(image: &mut Image) -> Option<Warning> {
+    repair::repair(image.pixels_mut().as_flattened_mut(), 3, 0.0, |c| c)
 }
 
 fn decode_linear(bytes: &[u8]) -> Result<LinearPicture, FileError> {
@@ -82,40 +90,66 @@ fn decode_linear(bytes: &[u8]) -> Result<LinearPicture, FileError> {
     }
 }
 
-fn decode(bytes: &[u8]) -> Decoded {
-    match bytes {
-        [0x76, 0x2f, 0x31, 0x01, ..] => exr::decode(bytes),
-        [b'#', b'?', ..] => hdr::decode(bytes),
-        [0x89, b'P', b'N', b'G', ..] => srgb::decode_png(bytes),
-        [0xff, 0xd8, 0xff, ..] => srgb::decode_jpeg(bytes),
-        [] => Err(FileError::new("the picture is empty")),
-        _ => Err(FileError::new("this is no picture of a known format")
-            .hint("OpenEXR, Radiance HDR, PNG and JPEG are read; convert it to one of them")),
+/// A format that is read.
+#[derive(Clone, Copy)]
+enum Format {
+    Exr,
+    Hdr,
+    Png,
+    Jpeg,
+}
+
+impl Format {
+    /// Told by the first bytes.
+    fn of(bytes: &[u8]) -> Result<Self, FileError> {
+        match bytes {
+            [0x76, 0x2f, 0x31, 0x01, ..] => Ok(Self::Exr),
+            [b'#', b'?', ..] => Ok(Self::Hdr),
+            [0x89, b'P', b'N', b'G', ..] => Ok(Self::Png),
+            [0xff, 0xd8, 0xff, ..] => Ok(Self::Jpeg),
+            [] => Err(FileError::new("the picture is empty")),
+            _ => Err(FileError::new("this is no picture of a known format")
+                .hint("OpenEXR, Radiance HDR, PNG and JPEG are read; convert it to one of them")),
+        }
     }
 }
+
+fn decode(bytes: &[u8]) -> Decoded {
+    let signals = |pixels: Pixels| (pixels.to_image(), Vec::new());
+    match Format::of(bytes)? {
+        Format::Exr => exr::decode(bytes),
+        Format::Hdr => hdr::decode(bytes),
+        Format::Png => signals::decode_png(bytes, LINEAR).map(signals),
+        Format::Jpeg => signals::decode_jpeg(bytes, LINEAR).map(signals),
+    }
+}
+
+/// Bytes of a pixel of an [`Image`].
+const LINEAR: u64 = size_of::<[f32; 3]>() as u64;
 
 /// Larger pictures are refused.
 const MAX_PIXELS: u64 = 1 << 28;
 /// Pictures that need more memory to decode are refused.
 const MAX_MEMORY: u64 = 4 << 30;
 
-/// A black picture, if it and what its decoder needs for each pixel are within the limits.
-fn canvas(width: u64, height: u64, decoder_bytes_per_pixel: u64) -> Result<Image, FileError> {
-    check_size(width, height, decoder_bytes_per_pixel)?;
+/// A black picture, if it is within the limits.
+fn canvas(width: u64, height: u64) -> Result<Image, FileError> {
+    check_size(width, height, LINEAR)?;
     Ok(Image::new(width as u32, height as u32))
 }
 
-fn check_size(width: u64, height: u64, decoder_bytes_per_pixel: u64) -> Result<(), FileError> {
+/// That a picture is within the limits that needs so much memory for each pixel; returns how much it needs.
+fn check_size(width: u64, height: u64, bytes_per_pixel: u64) -> Result<u64, FileError> {
     let pixels = width.saturating_mul(height);
     if pixels == 0 {
         return Err(FileError::new("the picture has no pixels"));
     }
-    let memory = pixels.saturating_mul(size_of::<[f32; 3]>() as u64 + decoder_bytes_per_pixel);
+    let memory = pixels.saturating_mul(bytes_per_pixel);
     if pixels > MAX_PIXELS || memory > MAX_MEMORY {
         return Err(FileError::new(format!("a picture of {width} x {height} pixels is too large"))
             .hint(format!("up to {MAX_PIXELS} pixels and {} GiB of memory are allowed", MAX_MEMORY >> 30)));
     }
-    Ok(())
+    Ok(memory)
 }
 
 #[cfg(test)]
@@ -124,8 +158,9 @@ mod tests {
 
     #[test]
     fn limits() {
-        assert!(check_size(3, 2, 100).is_ok());
-        for (width, height, bytes) in [(0, 5, 0), (1 << 14, (1 << 14) + 1, 0), (1 << 14, 1 << 14, 5), (1 << 63, 8, 1)] {
+        assert_eq!(check_size(3, 2, 100), Ok(600));
+        for (width, height, bytes) in [(0, 5, 0), (1 << 14, (1 << 14) + 1, 0), (1 << 14, 1 << 14, 17), (1 << 63, 8, 1)]
+        {
             assert!(check_size(width, height, bytes).is_err(), "{width} x {height}");
         }
     }

@@ -1,28 +1,32 @@
 //! Values that are no radiance: renderers and cameras leave some in their pictures, and one of them in an environment
 //! map would spoil whatever it lights.
 
-use eyebeam_core::film::Image;
-
 use crate::warning::Warning;
 
 /// Sets what is negative or not a number to 0, and what is infinite to the largest finite value of the picture. Counts
-/// the pixels in a warning.
-pub(super) fn repair(image: &mut Image) -> Option<Warning> {
-    let (mut not_finite, mut negative, mut largest) = (0_u64, 0_u64, 0.0_f32);
-    for pixel in image.pixels() {
-        not_finite += u64::from(pixel.iter().any(|c| !c.is_finite()));
-        negative += u64::from(pixel.iter().any(|&c| c < 0.0 && c.is_finite()));
-        largest = pixel.iter().filter(|c| c.is_finite()).fold(largest, |l, &c| l.max(c));
+/// the pixels, each of so many numbers, in a warning. `value` tells a number, and `zero` stands for 0.
+pub(super) fn repair<T: Copy>(
+    samples: &mut [T],
+    channels: usize,
+    zero: T,
+    value: impl Fn(T) -> f32,
+) -> Option<Warning> {
+    let (mut not_finite, mut negative, mut largest) = (0_u64, 0_u64, zero);
+    for pixel in samples.chunks_exact(channels.max(1)) {
+        not_finite += u64::from(pixel.iter().any(|&c| !value(c).is_finite()));
+        negative += u64::from(pixel.iter().any(|&c| value(c) < 0.0 && value(c).is_finite()));
+        for &c in pixel.iter().filter(|c| value(**c).is_finite()) {
+            largest = if value(c) > value(largest) { c } else { largest };
+        }
     }
     if not_finite + negative == 0 {
         return None;
     }
-    for y in 0..image.height() {
-        for x in 0..image.width() {
-            let pixel = image.pixel(x, y).map(|c| if c > 0.0 { c.min(largest) } else { 0.0 });
-            image.set_pixel(x, y, pixel);
-        }
+    for c in samples {
+        *c = if value(*c) > value(largest) { largest } else { *c };
+        *c = if value(*c) > 0.0 { *c } else { zero };
     }
+    let largest = value(largest);
     let pixels = |n| if n == 1 { "1 pixel".to_owned() } else { format!("{n} pixels") };
     let message = match (not_finite, negative) {
         (0, negative) => format!("{} had negative values: they are 0 now", pixels(negative)),
@@ -38,7 +42,13 @@ pub(super) fn repair(image: &mut Image) -> Option<Warning> {
 
 #[cfg(test)]
 mod tests {
+    use eyebeam_core::film::Image;
+
     use super::*;
+
+    fn repair(image: &mut Image) -> Option<Warning> {
+        super::repair(image.pixels_mut().as_flattened_mut(), 3, 0.0, |c| c)
+    }
 
     fn picture(pixels: &[[f32; 3]]) -> Image {
         let mut image = Image::new(pixels.len() as u32, 1);

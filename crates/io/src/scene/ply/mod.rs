@@ -1,7 +1,7 @@
 //! PLY: polygons as text or binary, with whatever else their maker wrote.
 //!
 //! Read are the element `vertex` with `x y z`, `nx ny nz` and `u v` (also `s t`, `texture_u texture_v`,
-//! `texture_s texture_t`), of `face` the list `vertex_indices` or `vertex_index`, of `tristrips` the same list, where -1
+//! `texture_s texture_t`) and `red green blue` (also `diffuse_red` and so on, `r g b`), of `face` the list `vertex_indices` or `vertex_index`, of `tristrips` the same list, where -1
 //! ends a strip. Polygons become fans of triangles; faces of fewer than three corners are dropped. Everything else is
 //! skipped. Turk, "The PLY Polygon File Format", 1994.
 
@@ -9,6 +9,8 @@ mod header;
 mod values;
 
 use std::path::Path;
+
+use eyebeam_core::color::srgb_decode;
 
 use crate::error::{At, Error, FileError};
 use crate::file;
@@ -24,6 +26,9 @@ pub struct MeshData {
     pub normals: Vec<[f32; 3]>,
     /// Texture coordinates, one per vertex; [0, 0] where they are not finite. Empty if the file has none.
     pub uvs: Vec<[f32; 2]>,
+    /// A linear colour at each vertex: whole numbers are sRGB signals from 0 to their type's largest, others linear already. 0
+    /// where it is negative or not finite. Empty if the file has none.
+    pub colors: Vec<[f32; 3]>,
     /// Indices of vertices, three for each triangle.
     pub triangles: Vec<[u32; 3]>,
 }
@@ -88,15 +93,32 @@ fn read_body(header: &Header, mut values: impl Values) -> Result<MeshData, FileE
 /// Names of texture coordinates, the first that are there.
 const UV: [[&str; 2]; 4] = [["u", "v"], ["s", "t"], ["texture_u", "texture_v"], ["texture_s", "texture_t"]];
 
+/// Names of colours, the first that are there.
+const COLOR: [[&str; 3]; 3] =
+    [["red", "green", "blue"], ["diffuse_red", "diffuse_green", "diffuse_blue"], ["r", "g", "b"]];
+
+/// The linear light that a number stands for.
+fn light(value: f32, kind: Kind) -> f32 {
+    let largest = match kind {
+        Kind::Scalar(Scalar::U8) => 255.0,
+        Kind::Scalar(Scalar::U16) => 65535.0,
+        _ if value.is_finite() => return value.max(0.0),
+        _ => return 0.0,
+    };
+    srgb_decode(value / largest)
+}
+
 fn read_vertices(element: &Element, values: &mut impl Values, mesh: &mut MeshData) -> Result<(), FileError> {
     let position = element
         .scalars(["x", "y", "z"])
         .ok_or_else(|| FileError::new("vertices have no numbers `x`, `y` and `z`").at(At::Line(element.line)))?;
     let normal = element.scalars(["nx", "ny", "nz"]);
     let uv = UV.iter().find_map(|names| element.scalars(*names));
+    let color = COLOR.iter().find_map(|names| element.scalars(*names));
     mesh.vertices.reserve_exact(element.count);
     mesh.normals.reserve_exact(if normal.is_some() { element.count } else { 0 });
     mesh.uvs.reserve_exact(if uv.is_some() { element.count } else { 0 });
+    mesh.colors.reserve_exact(if color.is_some() { element.count } else { 0 });
     let mut row = vec![0.0; element.properties.len()];
     for i in 0..element.count {
         let at = values.at();
@@ -113,6 +135,7 @@ fn read_vertices(element: &Element, values: &mut impl Values, mesh: &mut MeshDat
         mesh.vertices.push(p);
         mesh.normals.extend(normal.map(|n| finite(n.map(|k| row[k]))));
         mesh.uvs.extend(uv.map(|uv| finite(uv.map(|k| row[k]))));
+        mesh.colors.extend(color.map(|color| color.map(|k| light(row[k], element.properties[k].kind))));
     }
     Ok(())
 }

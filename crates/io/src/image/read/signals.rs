@@ -1,0 +1,163 @@
+//! PNG and JPEG: signals of 8 or 16 bits. Of an animation comes the first frame.
+
+use std::io::Cursor;
+
+use eyebeam_core::texture::{Pixels, Samples};
+use image::codecs::jpeg::JpegDecoder;
+use image::{DynamicImage, ImageDecoder};
+use png::{BitDepth, Decoder, DecodingError, Limits, Reader, Transformations};
+
+use crate::error::FileError;
+use crate::image::read::check_size;
+use crate::image::read::pixels::{compact, pixels};
+
+type Png<'b> = Reader<Cursor<&'b [u8]>>;
+type Jpeg<'b> = JpegDecoder<Cursor<&'b [u8]>>;
+
+/// What a PNG may keep beside its pixels.
+const PNG_MEMORY: usize = 256 << 20;
+
+/// Refused if the picture, and so many bytes more for each pixel, are more than is allowed.
+pub(super) fn decode_png(bytes: &[u8], more: u64) -> Result<Pixels, FileError> {
+    let (mut reader, _) = open_png(bytes, more)?;
+    let (width, height) = reader.info().size();
+    let (color, depth) = reader.output_color_type();
+    let channels = color.samples();
+    let mut signals = vec![0; width as usize * height as usize * stride(&reader)];
+    reader.next_frame(&mut signals).map_err(wrong_png)?;
+    let (channels, samples) = if depth == BitDepth::Sixteen {
+        let words = signals.as_chunks().0.iter().map(|bytes| u16::from_be_bytes(*bytes)).collect();
+        let (channels, words) = compact(channels, words, u16::MAX);
+        (channels, Samples::Word(words))
+    } else {
+        let (channels, signals) = compact(channels, signals, u8::MAX);
+        (channels, Samples::Byte(signals))
+    };
+    pixels([width, height], channels, samples)
+}
+
+/// The memory that pixels take, by the header alone.
+pub(super) fn png_size(bytes: &[u8]) -> Result<u64, FileError> {
+    open_png(bytes, 0).map(|(_, memory)| memory)
+}
+
+fn open_png(bytes: &[u8], more: u64) -> Result<(Png<'_>, u64), FileError> {
+    let mut decoder = Decoder::new_with_limits(Cursor::new(bytes), Limits { bytes: PNG_MEMORY });
+    decoder.set_ignore_text_chunk(true);
+    decoder.set_ignore_iccp_chunk(true);
+    // Palettes become colours, and less than 8 bits 8.
+    decoder.set_transformations(Transformations::EXPAND);
+    let reader = decoder.read_info().map_err(wrong_png)?;
+    let (width, height) = reader.info().size();
+    // Words are put in order in another place.
+    let copies = if reader.output_color_type().1 == BitDepth::Sixteen { 2 } else { 1 };
+    let memory = check_size(width.into(), height.into(), copies * stride(&reader) as u64 + more)?;
+    Ok((reader, memory))
+}
+
+/// Bytes of a pixel.
+fn stride(reader: &Png<'_>) -> usize {
+    let (color, depth) = reader.output_color_type();
+    color.samples() * if depth == BitDepth::Sixteen { 2 } else { 1 }
+}
+
+fn wrong_png(e: DecodingError) -> FileError {
+    FileError::new(format!("cannot decode the PNG: {e}"))
+}
+
+/// Of a progressive JPEG: three coefficients, their samples, and the decoded bytes.
+const JPEG_BYTES_PER_PIXEL: u64 = 20;
+
+/// Refused if the picture, and so many bytes more for each pixel, are more than is allowed.
+pub(super) fn decode_jpeg(bytes: &[u8], more: u64) -> Result<Pixels, FileError> {
+    let (decoder, _) = open_jpeg(bytes, more)?;
+    let (width, height) = decoder.dimensions();
+    let (channels, signals) = match DynamicImage::from_decoder(decoder).map_err(wrong_jpeg)? {
+        DynamicImage::ImageLuma8(grey) => (1, grey.into_raw()),
+        color => (3, color.into_rgb8().into_raw()),
+    };
+    let (channels, signals) = compact(channels, signals, u8::MAX);
+    pixels([width, height], channels, Samples::Byte(signals))
+}
+
+/// The memory that pixels take, by the header alone.
+pub(super) fn jpeg_size(bytes: &[u8]) -> Result<u64, FileError> {
+    open_jpeg(bytes, 0).map(|(_, memory)| memory)
+}
+
+fn open_jpeg(bytes: &[u8], more: u64) -> Result<(Jpeg<'_>, u64), FileError> {
+    let decoder = JpegDecoder::new(Cursor::new(bytes)).map_err(wrong_jpeg)?;
+    let (width, height) = decoder.dimensions();
+    check_size(width.into(), height.into(), JPEG_BYTES_PER_PIXEL + more)?;
+    let memory = u64::from(width) * u64::from(height) * u64::from(decoder.color_type().bytes_per_pixel());
+    Ok((decoder, memory))
+}
+
+fn wrong_jpeg(e: image::ImageError) -> FileError {
+    FileError::new(format!("cannot decode the JPEG: {e}"))
+}
+
+#[cfg(test)]
+mod tests {
+    use eyebeam_core::color::srgb_decode;
+    use png::{ColorType, Encoder};
+
+    use super::*;
+
+    fn png(color: ColorType, depth: BitDepth, width: u32, palette: &'static [u8], signals: &[u8]) -> Vec<u8> {
+        let mut bytes = Vec::new();
+        let mut encoder = Encoder::new(&mut bytes, width, 1);
+        encoder.set_color(color);
+        encoder.set_depth(depth);
+        if !palette.is_empty() {
+            encoder.set_palette(palette);
+        }
+        encoder.write_header().unwrap().write_image_data(signals).unwrap();
+        bytes
+    }
+
+    #[test]
+    fn every_kind_of_png() {
+        use BitDepth::{Eight, One, Sixteen};
+        use ColorType::{Grayscale, GrayscaleAlpha, Indexed, Rgb, Rgba};
+        let byte = |b: u8| srgb_decode(f32::from(b) / 255.0);
+        let color = [byte(255), byte(188), byte(0)];
+        for (bytes, expected) in [
+            (png(Rgb, Eight, 1, &[], &[255, 188, 0]), color),
+            (png(Rgba, Eight, 1, &[], &[255, 188, 0, 3]), color),
+            (png(Rgb, Sixteen, 1, &[], &[255, 255, 188, 188, 0, 0]), color),
+            (png(Rgba, Sixteen, 1, &[], &[255, 255, 188, 188, 0, 0, 9, 9]), color),
+            (png(Indexed, Eight, 1, &[0, 0, 0, 255, 188, 0], &[1]), color),
+            (png(Grayscale, Eight, 1, &[], &[188]), [byte(188); 3]),
+            (png(GrayscaleAlpha, Eight, 1, &[], &[188, 9]), [byte(188); 3]),
+            (png(Grayscale, One, 1, &[], &[0x80]), [1.0; 3]),
+        ] {
+            assert_eq!(decode_png(&bytes, 0).unwrap().to_image().pixels(), [expected]);
+        }
+    }
+
+    #[test]
+    fn sixteen_bits_are_finer_than_eight() {
+        let bytes = png(ColorType::Grayscale, BitDepth::Sixteen, 2, &[], &[128, 0, 128, 1]);
+        let image = decode_png(&bytes, 0).unwrap().to_image();
+        assert!(image.pixel(0, 0)[0] < image.pixel(1, 0)[0]);
+    }
+
+    /// Alpha stays if it says anything, and what is grey is kept as one channel.
+    #[test]
+    fn no_more_channels_than_it_takes() {
+        use ColorType::{Grayscale, GrayscaleAlpha, Rgb, Rgba};
+        for (color, signals, expected) in [
+            (Rgba, &[9, 8, 7, 255, 6, 5, 4, 255][..], &[9, 8, 7, 6, 5, 4][..]),
+            (Rgba, &[9, 8, 7, 255, 6, 5, 4, 254], &[9, 8, 7, 255, 6, 5, 4, 254]),
+            (Rgba, &[9, 9, 9, 255, 6, 6, 6, 0], &[9, 255, 6, 0]),
+            (Rgb, &[9, 9, 9, 6, 6, 6], &[9, 6]),
+            (GrayscaleAlpha, &[9, 255, 6, 255], &[9, 6]),
+            (Grayscale, &[9, 6], &[9, 6]),
+        ] {
+            let pixels = decode_png(&png(color, BitDepth::Eight, 2, &[], signals), 0).unwrap();
+            assert!(*pixels.samples() == Samples::Byte(expected.to_vec()), "{signals:?}");
+            assert_eq!(pixels.channels(), expected.len() / 2);
+        }
+    }
+}
