@@ -110,7 +110,7 @@ fn motion() {
         "motion = [{ time = 0, scale = ▸-1 }]",
         "motion = [{ time = 0, rotation = { axis = ▸[0, 0, 0], angle = 3 } }]",
         "motion = [{ time = 0, rotation = { axis = [0, 0, 1], angle = ▸1e7 } }]",
-        "motion = [{ time = 0, rotation = { axis = [0, 0, 1], angel = 3 } }]",
+        "motion = [{ time = 0, rotation = ▸{ axis = [0, 0, 1], ▸angel = 3 } }]",
         "motion = [▸{ offset = [0, 0, 0] }]",
         "motion = ▸{ time = 0 }",
         "pivot = ▸[0, 0, 0]",
@@ -125,7 +125,7 @@ fn motion() {
         "[render]\nshutter = ▸0.5",
         "[[camera.motion]]\ntime = 1\n[[camera.motion]]\ntime = ▸0.5",
         "[[camera.motion]]\ntime = 1\nlook_from = ▸[0, nan, 0]",
-        "[camera]\nlook_at = [1, 2, 3]\n[[camera.motion]]\ntime = 1\n▸look_from = [1, 2, 3]",
+        "[camera]\nlook_at = [1, 2, 3]\n▸[[camera.motion]]\ntime = 1\nlook_from = [1, 2, 3]",
         "[[camera.motion]]\ntime = 0\nup = ▸[0, 0, 0]",
         "[[camera.motion]]\ntime = 0\n[[camera.motion]]\ntime = ▸1\nlook_at = [0, 2, 12]",
     ];
