@@ -43,7 +43,7 @@ impl SceneDesc {
     /// Whether a material, or one that it is made of, is a lamp, and if so, whether that gives light.
     fn lamp(&self, material: &str) -> Option<bool> {
         let material = self.material.get(material)?;
-        let here = material.emission().map(|(color, _)| color.rgb() != Some(Rgb::grey(0.0)));
+        let here = material.emission().map(|emission| emission.color.rgb() != Some(Rgb::grey(0.0)));
         let mut material = material.clone();
         let parts = material.parts().into_iter().filter_map(|(_, name)| self.lamp(name?.name()));
         here.into_iter().chain(parts).reduce(|a, b| a || b)

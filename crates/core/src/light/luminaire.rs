@@ -17,7 +17,7 @@ use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 use crate::array::array;
-use crate::color::{Rgb, Spectrum};
+use crate::color::{LUMENS_PER_WATT, Rgb, Spectrum};
 use crate::light::ies::IesProfile;
 use crate::light::select::LightBounds;
 use crate::light::{one, unscaled};
@@ -56,9 +56,6 @@ pub struct IesLight {
 fn down() -> [f32; 3] {
     [0.0, -1.0, 0.0]
 }
-
-/// Luminous efficacy of light that is even from 370 to 730 nm, lm / W.
-const LUMENS_PER_WATT: f32 = 683.0 * 106.86 / 360.0;
 
 impl IesLight {
     pub(super) fn check(&self, c: &mut Checker) {

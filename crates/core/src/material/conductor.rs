@@ -21,6 +21,8 @@
 //! first lobe up instead (Turquin 2019) would be cheaper, but is not reciprocal, and has weights up to 3.3 where this has 1.8.
 //! docs/theory/microfacets.md has numbers.
 //!
+//! A thin film, such as oxide, changes what each facet reflects (see [`ThinFilm`]).
+//!
 //! ```toml
 //! [material.ring.conductor]
 //! metal = "gold"
@@ -33,6 +35,11 @@
 //! [material.steel.conductor]
 //! reflectance = [0.56, 0.57, 0.58]
 //! roughness = 0.4
+//!
+//! [material.tempered.conductor]
+//! metal = "iron"
+//! roughness = 0.3
+//! thin_film = { thickness = 50, eta = 2.4 }
 //! ```
 
 use std::f32::consts::FRAC_1_PI;
@@ -42,11 +49,11 @@ use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 use crate::color::{Rgb, Spectrum};
-use crate::material::BsdfSample;
 use crate::material::fresnel::Reflectance;
 use crate::material::lost::{horizon_over_cosine, lost, mean_lost, near_horizon};
 use crate::material::metals::NamedMetal;
 use crate::material::microfacet::{Ggx, reflect_at};
+use crate::material::{BsdfSample, ThinFilm};
 use crate::math::{reflect, sin_cos_turns};
 use crate::sampling::cosine_hemisphere;
 use crate::texture::{Color, Scalar, Textures};
@@ -79,6 +86,8 @@ pub struct Conductor {
     /// Whether light that goes from facet to facet comes back, as it does; without, rough metal is too dark, as in renderers
     /// that know single scattering only.
     pub compensation: bool,
+    /// A film on it; none if nothing is said.
+    pub thin_film: Option<ThinFilm>,
 }
 
 impl Default for Conductor {
@@ -92,6 +101,7 @@ impl Default for Conductor {
             anisotropy: 0.0,
             rotation: 0.0,
             compensation: true,
+            thin_film: None,
         }
     }
 }
@@ -101,6 +111,9 @@ impl Conductor {
 
     pub(crate) fn check(&self, c: &mut Checker) {
         self.roughness.check_range("roughness", 0.0, 1.0, c);
+        if let Some(film) = self.thin_film {
+            c.within("thin_film", |c| film.check(c));
+        }
         c.in_range("anisotropy", self.anisotropy, 0.0, 1.0);
         c.in_range("rotation", self.rotation, -360.0, 360.0);
         for (key, value, lo) in [("eta", self.eta, 0.01), ("k", self.k, 0.0)] {
@@ -141,7 +154,8 @@ impl Conductor {
             ),
         };
         let (ggx, compensation) = (Ggx::from_roughness(self.roughness.at(textures, 0.0, 1.0)), self.compensation);
-        let mut facets = ConductorBsdf { reflectance, ggx, x: Vec2::X, compensation };
+        let film = self.thin_film.unwrap_or(ThinFilm::NONE);
+        let mut facets = ConductorBsdf { reflectance, film, ggx, x: Vec2::X, compensation };
         if self.anisotropy > 0.0 {
             facets.ggx = facets.ggx.stretched(self.anisotropy);
             let (sin, cos) = sin_cos_turns(self.rotation / 360.0);
@@ -155,6 +169,7 @@ impl Conductor {
 #[derive(Clone, Copy, Debug)]
 pub struct ConductorBsdf {
     reflectance: Reflectance,
+    film: ThinFilm,
     ggx: Ggx,
     /// The facets' x axis in the surface's frame.
     x: Vec2,
@@ -172,7 +187,7 @@ struct Multiple {
 
 impl ConductorBsdf {
     pub(crate) fn albedo(&self) -> Spectrum {
-        self.reflectance.at(1.0)
+        self.facet_reflectance(1.0)
     }
 
     #[inline]
@@ -183,7 +198,7 @@ impl ConductorBsdf {
     #[inline]
     pub(crate) fn sample(&self, wo: Vec3, uc: f32, u: Vec2) -> Option<BsdfSample> {
         if self.is_delta() {
-            let weight = self.reflectance.at(wo.z.abs());
+            let weight = self.facet_reflectance(wo.z.abs());
             return Some(BsdfSample { wi: reflect(wo), weight, pdf: 1.0, delta: true, eta: 1.0 });
         }
         let side = 1.0_f32.copysign(wo.z);
@@ -251,13 +266,36 @@ impl ConductorBsdf {
     #[inline]
     fn multiple(&self, wo: Vec3) -> Multiple {
         let (lost, mean_lost) = (lost(self.ggx, wo), mean_lost(self.ggx));
-        let f = self.reflectance.mean().to_rgb();
+        let f = self.mean_reflectance().to_rgb();
         let f_ms = f.map(|f| f * f * (1.0 - mean_lost) / (1.0 - f * mean_lost));
         let max = |rgb: [f32; 3]| rgb[0].max(rgb[1]).max(rgb[2]);
         let (once, often) = (max(f) * (1.0 - lost), max(f_ms) * lost);
         // Where nothing is reflected, neither matters.
         let chance = often / (once + often).max(f32::MIN_POSITIVE);
         Multiple { scale: Spectrum::from_rgb(f_ms) * (lost * FRAC_1_PI / mean_lost), chance }
+    }
+
+    /// What a facet reflects.
+    #[inline]
+    fn facet_reflectance(&self, cos: f32) -> Spectrum {
+        if self.film.is_there() { self.reflectance_of_film(cos) } else { self.reflectance.at(cos) }
+    }
+
+    #[inline(never)]
+    fn reflectance_of_film(&self, cos: f32) -> Spectrum {
+        match self.reflectance {
+            Reflectance::Constant(share) => self.film.on_mirror(cos, share.into()),
+            Reflectance::Fresnel { eta, k } => self.film.on_metal(cos, eta, k),
+        }
+    }
+
+    /// The mean of it over an evenly lit surface.
+    fn mean_reflectance(&self) -> Spectrum {
+        if self.film.is_there() {
+            Reflectance::mean_of(|cos| self.reflectance_of_film(cos))
+        } else {
+            self.reflectance.mean()
+        }
     }
 
     /// `w` by the facets' axes, seen from above if `side` is 1, from below if it is -1.
@@ -279,205 +317,9 @@ impl ConductorBsdf {
             return None;
         }
         let facet = self.ggx.facet(wo, wi, 1.0)?;
-        Some((self.reflectance.at(facet.cos_o.min(1.0)) * self.ggx.g2_over_g1(wo, wi), facet.pdf))
+        Some((self.facet_reflectance(facet.cos_o.min(1.0)) * self.ggx.g2_over_g1(wo, wi), facet.pdf))
     }
 }
 
 #[cfg(test)]
-mod tests {
-    use super::*;
-    use crate::material::Bsdf;
-    use crate::material::microfacet::upright;
-    use crate::sampler::Independent;
-    use crate::testing::{Reciprocal, check_lobe};
-    use crate::texture::NoTextures;
-    use crate::validate::Problem;
-
-    fn gold(roughness: f32) -> Conductor {
-        Conductor { metal: Some(NamedMetal::Gold), roughness: roughness.into(), ..Conductor::default() }
-    }
-
-    /// Without what goes from facet to facet.
-    fn once(metal: Conductor) -> Conductor {
-        Conductor { compensation: false, ..metal }
-    }
-
-    fn white(roughness: f32) -> Conductor {
-        Conductor { reflectance: Some(Rgb::grey(1.0).into()), roughness: roughness.into(), ..Conductor::default() }
-    }
-
-    fn direction(degrees: f32) -> Vec3 {
-        let (sin, cos) = degrees.to_radians().sin_cos();
-        Vec3::new(0.6 * sin, 0.8 * sin, cos)
-    }
-
-    /// Mean weight of samples: the share of light from everywhere that is reflected.
-    fn albedo(metal: &Conductor, wo: Vec3) -> [f64; 3] {
-        const N: u32 = 20_000;
-        let mut sum = [0.0; 3];
-        for i in 0..N {
-            let mut numbers = Independent::new(7, glam::UVec2::ZERO, i);
-            let (uc, u) = (numbers.get_1d(), numbers.get_2d());
-            let weight = metal.bsdf(&NoTextures).sample(wo, uc, u).map_or(Spectrum::BLACK, |s| s.weight).to_rgb();
-            sum.iter_mut().zip(weight).for_each(|(sum, w)| *sum += f64::from(w) / f64::from(N));
-        }
-        sum
-    }
-
-    #[test]
-    fn lobe() {
-        for roughness in [0.05, 0.3, 1.0] {
-            for metal in [once(gold(roughness)), once(white(roughness))] {
-                check_lobe(&Bsdf::Conductor(metal.bsdf(&NoTextures)), Reciprocal::Yes).unwrap();
-            }
-        }
-        // Narrow beside wide, the integral of the density would not be found; turned, rounding shows.
-        for roughness in [0.3, 1.0] {
-            let brushed = Conductor { anisotropy: 0.8, rotation: 30.0, ..white(roughness) };
-            for metal in [gold(roughness), white(roughness), once(brushed.clone()), brushed] {
-                check_lobe(&Bsdf::Conductor(metal.bsdf(&NoTextures)), Reciprocal::Yes).unwrap();
-            }
-        }
-    }
-
-    /// As the density is that of which samples come, the mean of another density over it is 1; also of smooth metal.
-    #[test]
-    fn smooth_lobe_has_its_density() {
-        const N: u32 = 100_000;
-        for (roughness, degrees) in [(0.05, 89.0), (0.1, 88.0), (0.3, 85.0)] {
-            let (metal, wo) = (white(roughness).bsdf(&NoTextures), direction(degrees));
-            let mean = (0..N).map(|i| {
-                let mut numbers = Independent::new(8, glam::UVec2::ZERO, i);
-                let (uc, u) = (numbers.get_1d(), numbers.get_2d());
-                metal.sample(wo, uc, u).map_or(0.0, |s| {
-                    let other = s.wi.z * FRAC_1_PI * 0.5 * (1.0 + horizon_over_cosine(metal.ggx.alpha(), s.wi.z));
-                    f64::from(other / s.pdf) / f64::from(N)
-                })
-            });
-            let mean: f64 = mean.sum();
-            assert!((mean - 1.0).abs() < 0.1, "{mean} at roughness {roughness}");
-        }
-    }
-
-    /// The smoother, the nearer to Fresnel's share, on both sides.
-    #[test]
-    fn smooth_metal_reflects_as_fresnel_says() {
-        for degrees in [0.0, 40.0, 70.0] {
-            for side in [1.0, -1.0] {
-                let wo = upright(direction(degrees), side);
-                let fresnel = gold(0.0).bsdf(&NoTextures).reflectance.at(wo.z.abs()).to_rgb();
-                let mirror = gold(0.02).bsdf(&NoTextures).sample(wo, 0.0, Vec2::new(0.3, 0.9)).unwrap();
-                assert!(mirror.delta && mirror.wi == reflect(wo) && mirror.weight.to_rgb() == fresnel);
-                assert!(
-                    gold(0.02).bsdf(&NoTextures).is_delta()
-                        && gold(0.02).bsdf(&NoTextures).eval_pdf(wo, mirror.wi).1 == 0.0
-                );
-                for (a, f) in albedo(&gold(0.06), wo).into_iter().zip(fresnel) {
-                    assert!((a - f64::from(f)).abs() < 1e-3, "{a}, not {f}, at {degrees} degrees");
-                }
-            }
-        }
-    }
-
-    /// Highlights are long in the direction that `rotation` says, and only there.
-    #[test]
-    fn brushed_metal_has_a_direction() {
-        let spread = |anisotropy, rotation| {
-            let metal = Conductor { anisotropy, rotation, ..white(0.3) };
-            let mut mean = Vec2::ZERO;
-            for i in 0..4000 {
-                let u = Independent::new(3, glam::UVec2::ZERO, i).get_2d();
-                if let Some(s) = once(metal.clone()).bsdf(&NoTextures).sample(Vec3::Z, 0.0, u) {
-                    mean += (s.wi.truncate() * s.wi.truncate()) / 4000.0;
-                }
-            }
-            mean
-        };
-        let (round, along, across) = (spread(0.0, 0.0), spread(0.8, 0.0), spread(0.8, -90.0));
-        assert!((round.x / round.y - 1.0).abs() < 0.1, "{round}");
-        assert!(along.x > 6.0 * along.y && (across.y / along.x - 1.0).abs() < 0.1, "{along}, {across}");
-        // The azimuth of what an oblique view reflects lies in the turned direction, too.
-        let metal = Conductor { anisotropy: 0.8, rotation: 40.0, ..white(0.3) };
-        let at = |degrees: f32| {
-            let (sin, cos) = degrees.to_radians().sin_cos();
-            metal.bsdf(&NoTextures).eval_pdf(Vec3::Z, Vec3::new(0.3 * cos, 0.3 * sin, 0.91_f32.sqrt())).1
-        };
-        assert!(at(40.0) > 3.0 * at(130.0) && (at(40.0) / at(220.0) - 1.0).abs() < 1e-5);
-    }
-
-    /// Straight down on roughness 1: D = 1 / π and wi = 2θ from the axis, so the albedo is an integral over cos θᵢ
-    /// alone: ∫ G₂ / (4 cos θₒ) D 2π d(cos θᵢ) with G₂ = 2 cos / (1 + cos).
-    #[test]
-    fn rough_metal_loses_what_the_integral_says() {
-        const N: u32 = 1000;
-        let exact = 1.0 - std::f64::consts::LN_2;
-        let midpoints: f64 = (0..N)
-            .map(|i| (f64::from(i) + 0.5) / f64::from(N))
-            .map(|cos| {
-                let wi = Vec3::new((1.0 - cos * cos).sqrt() as f32, 0.0, cos as f32);
-                f64::from(once(white(1.0)).bsdf(&NoTextures).eval_pdf(Vec3::Z, wi).0.to_rgb()[0])
-                    * std::f64::consts::TAU
-                    / f64::from(N)
-            })
-            .sum();
-        assert!((midpoints - exact).abs() < 1e-5, "{midpoints}, not {exact}");
-        let [mean, ..] = albedo(&once(white(1.0)), Vec3::Z);
-        assert!((mean - exact).abs() < 0.01, "{mean}, not {exact}");
-    }
-
-    /// Finite up to the horizon and at directions that are no directions of light.
-    #[test]
-    fn grazing_light_is_finite() {
-        for roughness in [0.0, 0.0224, 0.05, 0.5, 1.0] {
-            for metal in [gold(roughness), once(gold(roughness)), white(roughness)] {
-                let most = if metal.compensation { 16.0 } else { 1.0 };
-                let metal = metal.bsdf(&NoTextures);
-                for z in [0.0_f32, -0.0, 1e-42, 1e-30, 1e-20, -1e-10, 1e-5] {
-                    let wo = Vec3::new(1.0, 0.0, z);
-                    for u in
-                        [Vec2::ZERO, Vec2::new(0.5, 0.0), Vec2::new(0.3, 1.0 - f32::EPSILON / 2.0), Vec2::splat(0.4)]
-                    {
-                        if let Some(s) = metal.sample(wo, u.x, u) {
-                            assert!(s.weight.to_rgb().iter().all(|w| (0.0..=most).contains(w)), "{s:?}");
-                            assert!(s.pdf.is_finite() && s.pdf >= 0.0 && s.wi.is_finite(), "{s:?}");
-                        }
-                    }
-                    for wi in [Vec3::new(-1.0, 0.0, z), wo, -wo, Vec3::Z, Vec3::X, Vec3::new(-1.0, 0.0, 1e-25)] {
-                        let (eval, pdf) = metal.eval_pdf(wo, wi);
-                        assert!(
-                            eval.to_rgb().iter().all(|e| e.is_finite() && *e >= 0.0) && pdf.is_finite() && pdf >= 0.0
-                        );
-                    }
-                }
-            }
-        }
-    }
-
-    #[test]
-    fn contradictions_are_problems() {
-        let problems = |metal: Conductor| {
-            let mut c = Checker::default();
-            metal.check(&mut c);
-            c.into_problems().into_iter().map(|Problem { path, .. }| path.join(".")).collect::<Vec<_>>()
-        };
-        assert!(problems(gold(0.5)).is_empty() && problems(white(0.5)).is_empty());
-        assert!(problems(Conductor::default()).is_empty());
-        let index = |eta: f32, k: f32| Conductor {
-            eta: Some(Rgb([eta, 1.0, 1.0])),
-            k: Some(Rgb([k, 1.0, 1.0])),
-            ..Conductor::default()
-        };
-        assert!(problems(index(1.0, 1.0)).is_empty());
-        assert_eq!(problems(Conductor { k: None, ..index(1.0, 1.0) }), ["eta"]);
-        assert_eq!(problems(Conductor { eta: None, ..index(1.0, 1.0) }), ["k"]);
-        assert_eq!(
-            problems(Conductor { reflectance: Some(Rgb::grey(0.5).into()), ..index(1.0, 1.0) }),
-            ["reflectance"]
-        );
-        assert_eq!(problems(Conductor { metal: Some(NamedMetal::Iron), ..index(1.0, 1.0) }), ["eta"]);
-        assert_eq!(problems(Conductor { metal: Some(NamedMetal::Iron), ..white(0.0) }), ["reflectance"]);
-        assert_eq!(problems(index(0.0, 1.0)), ["eta"]);
-        assert_eq!(problems(Conductor { roughness: 1.5.into(), ..index(1.0, f32::NAN) }), ["roughness", "k"]);
-        assert_eq!(problems(Conductor { reflectance: Some(Rgb::grey(1.5).into()), ..white(0.5) }), ["reflectance"]);
-    }
-}
+mod tests;

@@ -13,6 +13,9 @@
 //! doi:10.2312/EGWR/EGSR07/195-206. Light from facet to facet is lost. f(wo, wi) eta² = f(wi, wo), where eta is the
 //! index on the side of `wi` over that on the side of `wo`.
 //!
+//! A thin film, such as soap or oil, changes how much each facet reflects, and the rest goes through (see [`ThinFilm`]). A soap
+//! bubble is a ball of eta = 1 with a film.
+//!
 //! A hollow ball is a ball of glass with a smaller one of eta = 1/1.5 inside.
 //!
 //! ```toml
@@ -22,6 +25,10 @@
 //! [material.frosted.dielectric]
 //! eta = 1.5
 //! roughness = 0.4
+//!
+//! [material.bubble.dielectric]
+//! eta = 1.0
+//! thin_film = { thickness = 400, eta = 1.33 }
 //!
 //! [material.wine.dielectric]
 //! eta = 1.34
@@ -38,7 +45,7 @@ use serde::{Deserialize, Serialize};
 
 use crate::color::{Rgb, Spectrum};
 use crate::material::microfacet::{Ggx, reflect_at, refract_at, upright};
-use crate::material::{BsdfSample, Fresnel};
+use crate::material::{BsdfSample, Fresnel, ThinFilm};
 use crate::math::{reflect, refract};
 use crate::medium::Filling;
 use crate::texture::{Scalar, Textures};
@@ -56,6 +63,8 @@ pub struct Dielectric {
     /// 0.03 degrees: for glass below 0.04.
     #[schemars(range(min = 0.0, max = 1.0))]
     pub roughness: Scalar,
+    /// A film on its outside; none if nothing is said.
+    pub thin_film: Option<ThinFilm>,
     /// How strongly light is absorbed on its way inside, 1/m, 0..1e6 in each channel; 0 if nothing is said.
     pub absorption: Option<Rgb>,
     /// The colour of white light after `transmittance_distance` inside, 0..1 in each channel: another way to say absorption.
@@ -78,6 +87,7 @@ impl Default for Dielectric {
             transmittance: None,
             transmittance_distance: 1.0,
             priority: 0,
+            thin_film: None,
         }
     }
 }
@@ -86,6 +96,9 @@ impl Dielectric {
     pub(crate) fn check(&self, c: &mut Checker) {
         c.in_range("eta", self.eta, 0.01, 100.0);
         self.roughness.check_range("roughness", 0.0, 1.0, c);
+        if let Some(film) = self.thin_film {
+            c.within("thin_film", |c| film.check(c));
+        }
         for (key, value, hi) in
             [("absorption", self.absorption, Self::DARKEST), ("transmittance", self.transmittance, 1.0)]
         {
@@ -121,7 +134,8 @@ impl Dielectric {
 
     #[inline]
     pub(crate) fn bsdf(&self, textures: &impl Textures) -> DielectricBsdf {
-        DielectricBsdf { eta: self.eta, ggx: Ggx::from_roughness(self.roughness.at(textures, 0.0, 1.0)) }
+        let ggx = Ggx::from_roughness(self.roughness.at(textures, 0.0, 1.0));
+        DielectricBsdf { eta: self.eta, ggx, film: self.thin_film.unwrap_or(ThinFilm::NONE) }
     }
 }
 
@@ -130,6 +144,7 @@ impl Dielectric {
 pub struct DielectricBsdf {
     eta: f32,
     ggx: Ggx,
+    film: ThinFilm,
 }
 
 impl DielectricBsdf {
@@ -153,18 +168,29 @@ impl DielectricBsdf {
     #[inline]
     pub(crate) fn sample(&self, wo: Vec3, uc: f32, u: Vec2) -> Option<BsdfSample> {
         let eta = self.eta_from(wo);
-        if self.is_delta() { Some(Self::sample_smooth(wo, eta, uc)) } else { self.sample_rough(wo, eta, uc, u) }
+        if self.is_delta() { Some(self.sample_smooth(wo, eta, uc)) } else { self.sample_rough(wo, eta, uc, u) }
     }
 
     #[inline]
-    fn sample_smooth(wo: Vec3, eta: f32, uc: f32) -> BsdfSample {
-        let fresnel = Fresnel::dielectric(wo.z.abs(), eta);
-        if uc < fresnel.reflectance {
-            BsdfSample { wi: reflect(wo), weight: Spectrum::ONE, pdf: fresnel.reflectance, delta: true, eta: 1.0 }
+    fn sample_smooth(&self, wo: Vec3, eta: f32, uc: f32) -> BsdfSample {
+        let cos = wo.z.abs();
+        let fresnel = Fresnel::dielectric(cos, eta);
+        let split = self.split(cos, fresnel, eta, wo.z > 0.0);
+        if uc < split.chance {
+            BsdfSample { wi: reflect(wo), weight: split.reflected, pdf: split.chance, delta: true, eta: 1.0 }
         } else {
-            let weight = Spectrum::ONE * (1.0 / (eta * eta));
-            let pdf = 1.0 - fresnel.reflectance;
-            BsdfSample { wi: refract(wo, eta, fresnel.cos_t), weight, pdf, delta: true, eta }
+            let weight = split.refracted * (1.0 / (eta * eta));
+            BsdfSample { wi: refract(wo, eta, fresnel.cos_t), weight, pdf: 1.0 - split.chance, delta: true, eta }
+        }
+    }
+
+    /// How light that meets a facet at a cosine divides.
+    #[inline]
+    fn split(&self, cos: f32, fresnel: Fresnel, eta: f32, outside: bool) -> Split {
+        if self.film.is_there() && fresnel.cos_t > 0.0 {
+            Split::by_color(self.film.on_clear([cos, fresnel.cos_t], eta, outside))
+        } else {
+            Split { chance: fresnel.reflectance, reflected: Spectrum::ONE, refracted: Spectrum::ONE }
         }
     }
 
@@ -173,15 +199,16 @@ impl DielectricBsdf {
         let side = 1.0_f32.copysign(wo.z);
         let up = upright(wo, side);
         let m = self.ggx.sample(up, u);
-        let fresnel = Fresnel::dielectric(up.dot(m).clamp(0.0, 1.0), eta);
-        let reflected = uc < fresnel.reflectance;
+        let cos = up.dot(m).clamp(0.0, 1.0);
+        let fresnel = Fresnel::dielectric(cos, eta);
+        let reflected = uc < self.split(cos, fresnel, eta, side > 0.0).chance;
         let wi = if reflected { reflect_at(up, m) } else { refract_at(up, m, eta, fresnel.cos_t) };
         if reflected != (wi.z > 0.0) {
             return None;
         }
-        let (weight, pdf) = self.weight_pdf(up, wi, eta)?;
+        let (weight, pdf) = self.weight_pdf(up, wi, eta, side > 0.0)?;
         let eta = if reflected { 1.0 } else { eta };
-        Some(BsdfSample { wi: upright(wi, side), weight: Spectrum::ONE * weight, pdf, delta: false, eta })
+        Some(BsdfSample { wi: upright(wi, side), weight, pdf, delta: false, eta })
     }
 
     #[inline]
@@ -190,25 +217,55 @@ impl DielectricBsdf {
         if self.is_delta() {
             return (Spectrum::BLACK, 0.0);
         }
-        let (weight, pdf) =
-            self.weight_pdf(upright(wo, side), upright(wi, side), self.eta_from(wo)).unwrap_or_default();
-        (Spectrum::ONE * (weight * pdf), pdf)
+        let (up, eta) = (upright(wo, side), self.eta_from(wo));
+        self.weight_pdf(up, upright(wi, side), eta, side > 0.0)
+            .map_or((Spectrum::BLACK, 0.0), |(weight, pdf)| (weight * pdf, pdf))
     }
 
     /// eval / pdf and pdf, for `wo` above the surface, of a rough one; none if no light goes that way.
     #[inline]
-    fn weight_pdf(&self, wo: Vec3, wi: Vec3, eta: f32) -> Option<(f32, f32)> {
+    fn weight_pdf(&self, wo: Vec3, wi: Vec3, eta: f32, outside: bool) -> Option<(Spectrum, f32)> {
         if wo.z <= 0.0 || wi.z == 0.0 {
             return None;
         }
         let reflected = wi.z > 0.0;
         let facet = self.ggx.facet(wo, wi, if reflected { 1.0 } else { eta })?;
+        let cos = facet.cos_o.min(1.0);
         let (weight, chance) = if reflected {
-            (self.ggx.g2_over_g1(wo, wi), Fresnel::dielectric(facet.cos_o.min(1.0), eta).reflectance)
+            let split = self.split(cos, Fresnel::dielectric(cos, eta), eta, outside);
+            (split.reflected * self.ggx.g2_over_g1(wo, wi), split.chance)
         } else {
-            (self.ggx.g1(wi) / (eta * eta), 1.0 - Fresnel::between(facet.cos_o, facet.cos_i, eta))
+            let reflectance = Fresnel::between(facet.cos_o, facet.cos_i, eta);
+            let split = self.split(cos, Fresnel { reflectance, cos_t: facet.cos_i.min(1.0) }, eta, outside);
+            (split.refracted * (self.ggx.g1(wi) / (eta * eta)), 1.0 - split.chance)
         };
         (chance > 0.0).then_some((weight, chance * facet.pdf))
+    }
+}
+
+/// How light divides at a facet.
+#[derive(Clone, Copy, Debug)]
+struct Split {
+    /// Of reflection.
+    chance: f32,
+    /// The share that is reflected, over that chance.
+    reflected: Spectrum,
+    /// The share that goes through, over the other chance.
+    refracted: Spectrum,
+}
+
+impl Split {
+    /// By the share of each channel that is reflected.
+    #[inline(never)]
+    fn by_color(reflectance: Spectrum) -> Self {
+        let rgb = reflectance.to_rgb();
+        let chance = (rgb[0] + rgb[1] + rgb[2]) * (1.0 / 3.0);
+        let over = |share: f32, chance: f32| share / chance.max(f32::MIN_POSITIVE);
+        Self {
+            chance,
+            reflected: Spectrum::from_rgb(rgb.map(|r| over(r, chance))),
+            refracted: Spectrum::from_rgb(rgb.map(|r| over(1.0 - r, 1.0 - chance))),
+        }
     }
 }
 
@@ -265,6 +322,32 @@ mod tests {
     fn lobe() {
         for (eta, roughness) in [(1.5, 0.05), (1.5, 0.3), (1.5, 1.0), (0.4, 0.2), (1.05, 0.6)] {
             check_lobe(&Bsdf::Dielectric(glass(eta, roughness)), Reciprocal::Yes).unwrap();
+        }
+    }
+
+    /// With a film, all light goes somewhere, as much of each colour either way through a facet; and the colours differ.
+    #[test]
+    fn film() {
+        let thin_film = Some(ThinFilm { thickness: 450.0, eta: 1.7 });
+        for (eta, roughness) in [(1.5, 0.3), (1.5, 0.6), (0.7, 0.4)] {
+            let glass =
+                Dielectric { eta, roughness: roughness.into(), thin_film, ..Dielectric::default() }.bsdf(&NoTextures);
+            check_lobe(&Bsdf::Dielectric(glass), Reciprocal::Yes).unwrap();
+        }
+        let glass = |eta| Dielectric { eta, thin_film, ..Dielectric::default() }.bsdf(&NoTextures);
+        for (eta, degrees, side) in [(1.5, 0.0, 1.0), (1.5, 60.0, 1.0), (1.5, 35.0, -1.0), (1.0, 45.0, 1.0)] {
+            let (wo, lobe) = (direction(degrees) * Vec3::new(1.0, 1.0, side), glass(eta));
+            let [reflection, refraction] = [0.0, 1.0 - f32::EPSILON].map(|uc| lobe.sample(wo, uc, Vec2::ZERO).unwrap());
+            let parts = [reflection, refraction].map(|s| (s.weight * (s.pdf * s.eta * s.eta)).to_rgb());
+            let back = lobe.sample(refraction.wi, 0.0, Vec2::ZERO).unwrap();
+            let back = (back.weight * back.pdf).to_rgb();
+            assert!(reflection.wi.z * wo.z > 0.0 && refraction.wi.z * wo.z < 0.0);
+            for i in 0..3 {
+                assert!((parts[0][i] + parts[1][i] - 1.0).abs() < 1e-5, "{parts:?}");
+                assert!((parts[0][i] - back[i]).abs() < 1e-4, "{parts:?} {back:?}");
+            }
+            let [r, g, b] = parts[0];
+            assert!(r.max(g).max(b) > 1.2 * r.min(g).min(b), "{parts:?}");
         }
     }
 

@@ -31,6 +31,35 @@ pub struct Emissive {
     pub two_sided: bool,
 }
 
+/// What a material sends out: the same in all directions.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Emission<'m> {
+    pub(crate) color: &'m Color,
+    /// Factor on the color, for W / (m² sr).
+    pub(crate) scale: f32,
+    /// Whether the side that the normal points away from shines too.
+    pub(crate) two_sided: bool,
+}
+
+impl Emission<'_> {
+    /// Radiance, if it is the same everywhere.
+    pub(crate) fn radiance(self) -> Option<Spectrum> {
+        self.color.rgb().map(|rgb| Spectrum::from(rgb) * self.scale)
+    }
+
+    /// Radiance at a point.
+    #[inline]
+    pub(crate) fn radiance_at(self, textures: &impl Textures) -> Spectrum {
+        self.color.amount_at(textures) * self.scale
+    }
+
+    /// The same along `wo`.
+    #[inline]
+    pub(crate) fn le(self, wo: Vec3, textures: &impl Textures) -> Spectrum {
+        if wo.z > 0.0 || self.two_sided { self.radiance_at(textures) } else { Spectrum::BLACK }
+    }
+}
+
 impl Default for Emissive {
     fn default() -> Self {
         Self { radiance: Rgb::grey(1.0).into(), albedo: Rgb::grey(0.0).into(), two_sided: false }
@@ -49,8 +78,8 @@ impl Emissive {
     }
 
     #[inline]
-    pub(crate) fn le(&self, wo: Vec3, textures: &impl Textures) -> Spectrum {
-        if wo.z > 0.0 || self.two_sided { self.radiance.amount_at(textures) } else { Spectrum::BLACK }
+    pub(crate) fn emission(&self) -> Emission<'_> {
+        Emission { color: &self.radiance, scale: 1.0, two_sided: self.two_sided }
     }
 }
 
@@ -62,8 +91,11 @@ mod tests {
     #[test]
     fn shines_on_the_side_of_the_normal() {
         let one = Emissive::default();
-        assert!(!one.le(Vec3::Z, &NoTextures).is_black() && one.le(Vec3::NEG_Z, &NoTextures).is_black());
+        assert!(
+            !one.emission().le(Vec3::Z, &NoTextures).is_black()
+                && one.emission().le(Vec3::NEG_Z, &NoTextures).is_black()
+        );
         let two = Emissive { two_sided: true, ..one };
-        assert_eq!(two.le(Vec3::Z, &NoTextures), two.le(Vec3::NEG_Z, &NoTextures));
+        assert_eq!(two.emission().le(Vec3::Z, &NoTextures), two.emission().le(Vec3::NEG_Z, &NoTextures));
     }
 }

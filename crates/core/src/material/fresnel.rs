@@ -72,8 +72,13 @@ impl Reflectance {
     pub(super) fn mean(self) -> Spectrum {
         match self {
             Self::Constant(reflectance) => reflectance.into(),
-            Self::Fresnel { .. } => self.at(0.355_051).lerp(self.at(0.844_949), 0.636_082_8),
+            Self::Fresnel { .. } => Self::mean_of(|cos| self.at(cos)),
         }
+    }
+
+    /// The same of another function of the cosine.
+    pub(super) fn mean_of(at: impl Fn(f32) -> Spectrum) -> Spectrum {
+        at(0.355_051).lerp(at(0.844_949), 0.636_082_8)
     }
 
     #[inline]

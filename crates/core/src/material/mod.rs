@@ -21,8 +21,12 @@ mod mix;
 mod normal_map;
 mod null;
 mod oren_nayar;
+mod plastic;
+mod principled;
+mod reflected;
 mod sheen;
 mod thin_dielectric;
+mod thin_film;
 
 use std::collections::BTreeMap;
 use std::iter;
@@ -41,6 +45,7 @@ pub use bump::Bump;
 pub use conductor::{Conductor, ConductorBsdf};
 pub use dielectric::{Dielectric, DielectricBsdf};
 pub use diffuse_transmission::{DiffuseTransmission, DiffuseTransmissionBsdf};
+pub(crate) use emissive::Emission;
 pub use emissive::Emissive;
 pub use fresnel::{Fresnel, fresnel_conductor};
 pub use lambertian::{Lambertian, LambertianBsdf};
@@ -52,8 +57,11 @@ pub use mix::Mix;
 pub use normal_map::NormalMap;
 pub use null::{Null, NullBsdf};
 pub use oren_nayar::{OrenNayar, OrenNayarBsdf};
+pub use plastic::{Plastic, PlasticBsdf};
+pub use principled::{Principled, PrincipledBsdf};
 pub use sheen::{Sheen, SheenBsdf};
 pub use thin_dielectric::{ThinDielectric, ThinDielectricBsdf};
+pub use thin_film::ThinFilm;
 
 /// A material as a scene states it: `[material.NAME.KIND]`.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
@@ -65,6 +73,10 @@ pub enum MaterialDesc {
     OrenNayar(OrenNayar),
     /// A matte leaf, paper.
     DiffuseTransmission(DiffuseTransmission),
+    /// Matte under a clear coat.
+    Plastic(Plastic),
+    /// Layers: fuzz, a coat, metal or glass or something matte.
+    Principled(Box<Principled>),
     /// Velvet, cloth.
     Sheen(Sheen),
     /// Mirror to rough metal.
@@ -124,6 +136,8 @@ impl MaterialDesc {
             Self::Lambertian(m) => c.within("lambertian", |c| m.check(c)),
             Self::OrenNayar(m) => c.within("oren-nayar", |c| m.check(c)),
             Self::DiffuseTransmission(m) => c.within("diffuse-transmission", |c| m.check(c)),
+            Self::Plastic(m) => c.within("plastic", |c| m.check(c)),
+            Self::Principled(m) => c.within("principled", |c| m.check(c)),
             Self::Sheen(m) => c.within("sheen", |c| m.check(c)),
             Self::Metal(m) => c.within("metal", |c| m.check(c)),
             Self::Conductor(m) => c.within("conductor", |c| m.check(c)),
@@ -146,6 +160,8 @@ impl MaterialDesc {
             Self::Lambertian(m) => Bsdf::Lambertian(m.bsdf(textures)),
             Self::OrenNayar(m) => Bsdf::OrenNayar(m.bsdf(textures)),
             Self::DiffuseTransmission(m) => Bsdf::DiffuseTransmission(m.bsdf(textures)),
+            Self::Plastic(m) => Bsdf::Plastic(m.bsdf(textures)),
+            Self::Principled(m) => Bsdf::Principled(m.bsdf(textures)),
             Self::Sheen(m) => Bsdf::Sheen(m.bsdf(textures)),
             Self::Metal(m) => Bsdf::Metal(m.bsdf(textures)),
             Self::Conductor(m) => Bsdf::Conductor(m.bsdf(textures)),
@@ -167,6 +183,8 @@ impl MaterialDesc {
                 "diffuse-transmission",
                 vec![("reflectance", m.reflectance.texture()), ("transmittance", m.transmittance.texture())],
             ),
+            Self::Plastic(m) => ("plastic", vec![("albedo", m.albedo.texture()), ("roughness", m.roughness.texture())]),
+            Self::Principled(m) => ("principled", m.textures()),
             Self::Sheen(m) => (
                 "sheen",
                 vec![
@@ -207,13 +225,19 @@ impl MaterialDesc {
 
     /// Whether highlights have a direction, so that it matters how coordinates lie on the shape.
     pub(crate) fn is_anisotropic(&self) -> bool {
-        matches!(self, Self::Conductor(m) if m.anisotropy > 0.0)
+        match self {
+            Self::Conductor(m) => m.anisotropy > 0.0,
+            Self::Principled(m) => m.is_anisotropic(),
+            _ => false,
+        }
     }
 
-    /// The colour in which it shines, if it does, and whether its back does, too.
-    pub(crate) fn emission(&self) -> Option<(&Color, bool)> {
+    /// How it shines, if it does.
+    #[inline]
+    pub(crate) fn emission(&self) -> Option<Emission<'_>> {
         match self {
-            Self::Emissive(m) => Some((&m.radiance, m.two_sided)),
+            Self::Emissive(m) => Some(m.emission()),
+            Self::Principled(m) => m.emission(),
             _ => None,
         }
     }
@@ -221,10 +245,7 @@ impl MaterialDesc {
     /// Radiance that the surface itself sends along `wo`.
     #[inline]
     pub fn le(&self, wo: Vec3, textures: &impl Textures) -> Spectrum {
-        match self {
-            Self::Emissive(m) => m.le(wo, textures),
-            _ => Spectrum::BLACK,
-        }
+        self.emission().map_or(Spectrum::BLACK, |emission| emission.le(wo, textures))
     }
 }
 
@@ -237,6 +258,10 @@ pub enum Bsdf {
     OrenNayar(OrenNayarBsdf),
     /// See [`DiffuseTransmission`].
     DiffuseTransmission(DiffuseTransmissionBsdf),
+    /// See [`Plastic`].
+    Plastic(PlasticBsdf),
+    /// See [`Principled`].
+    Principled(PrincipledBsdf),
     /// See [`Sheen`].
     Sheen(SheenBsdf),
     /// See [`Metal`].
@@ -294,6 +319,8 @@ impl Bsdf {
             Self::Lambertian(b) => b.sample(wo, u),
             Self::OrenNayar(b) => b.sample(wo, uc, u),
             Self::DiffuseTransmission(b) => b.sample(wo, uc, u),
+            Self::Plastic(b) => b.sample(wo, uc, u),
+            Self::Principled(b) => b.sample(wo, uc, u),
             Self::Sheen(b) => b.sample(wo, uc, u),
             Self::Metal(b) => b.sample(wo, uc, u),
             Self::Conductor(b) => b.sample(wo, uc, u),
@@ -310,6 +337,8 @@ impl Bsdf {
             Self::Lambertian(b) => b.eval_pdf(wo, wi),
             Self::OrenNayar(b) => b.eval_pdf(wo, wi),
             Self::DiffuseTransmission(b) => b.eval_pdf(wo, wi),
+            Self::Plastic(b) => b.eval_pdf(wo, wi),
+            Self::Principled(b) => b.eval_pdf(wo, wi),
             Self::Sheen(b) => b.eval_pdf(wo, wi),
             Self::Metal(b) => b.eval_pdf(wo, wi),
             Self::Conductor(b) => b.eval_pdf(wo, wi),
@@ -337,6 +366,8 @@ impl Bsdf {
             Self::Lambertian(b) => b.albedo,
             Self::OrenNayar(b) => b.albedo(),
             Self::DiffuseTransmission(b) => b.albedo(),
+            Self::Plastic(b) => b.albedo(),
+            Self::Principled(b) => b.albedo(),
             Self::Sheen(b) => b.albedo(),
             Self::Metal(b) => b.albedo(),
             Self::Conductor(b) => b.albedo(),
@@ -348,7 +379,12 @@ impl Bsdf {
     #[inline]
     pub fn is_delta(&self) -> bool {
         match self {
-            Self::Lambertian(_) | Self::OrenNayar(_) | Self::DiffuseTransmission(_) | Self::Sheen(_) => false,
+            Self::Lambertian(_)
+            | Self::OrenNayar(_)
+            | Self::DiffuseTransmission(_)
+            | Self::Plastic(_)
+            | Self::Sheen(_) => false,
+            Self::Principled(b) => b.is_delta(),
             Self::Metal(b) => b.is_delta(),
             Self::Conductor(b) => b.is_delta(),
             Self::Dielectric(b) => b.is_delta(),

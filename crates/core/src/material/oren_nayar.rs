@@ -96,8 +96,14 @@ impl OrenNayarBsdf {
         (self.eval(wo, wi), Lobes::new(wo, self.roughness).pdf(wi))
     }
 
+    /// A rough one that keeps these shares of the light.
+    #[inline]
+    pub(super) fn new(albedo: Rgb, roughness: f32) -> Self {
+        Self { albedo, roughness }
+    }
+
     /// The BRDF times cos θᵢ for directions above the surface.
-    fn eval(&self, wo: Vec3, wi: Vec3) -> Spectrum {
+    pub(super) fn eval(&self, wo: Vec3, wi: Vec3) -> Spectrum {
         let (r, a) = (self.roughness, self.a());
         let s = wo.x * wi.x + wo.y * wi.y;
         // cos θᵢ / t, which is finite where 1 / t is not.

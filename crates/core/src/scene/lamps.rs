@@ -50,8 +50,8 @@ impl Scene {
     /// Of a material by its number, if it shines at all.
     fn shine(&self, material: u32) -> Option<Shine> {
         let material = self.materials.get(material as usize)?;
-        if let Some((color, two_sided)) = material.emission() {
-            return Some(Shine { two_sided, color: color.rgb().map(Spectrum::from) });
+        if let Some(emission) = material.emission() {
+            return Some(Shine { two_sided: emission.two_sided, color: emission.radiance() });
         }
         let parts = material.clone().parts().into_iter().filter_map(|(_, name)| self.shine(name?.index())).collect();
         let parts: Vec<Shine> = parts;
@@ -82,7 +82,7 @@ impl Scene {
             MaterialDesc::Mask(m) => of(&m.of) * m.opacity.at(textures, 0.0, 1.0),
             MaterialDesc::NormalMap(m) => of(&m.of),
             MaterialDesc::Bump(m) => of(&m.of),
-            _ => material.emission().map_or(Spectrum::BLACK, |(color, _)| color.amount_at(textures)),
+            _ => material.emission().map_or(Spectrum::BLACK, |emission| emission.radiance_at(textures)),
         }
     }
 }

@@ -76,13 +76,13 @@ fn direction([depth, turn]: Point, side: f64) -> Vec3 {
     Vec3::new((r * cos) as f32, (r * sin) as f32, (side * (1.0 - depth)) as f32)
 }
 
-/// The points of `count` samples in each hemisphere.
+/// The points of `count` samples in each hemisphere; without delta ones, which have no density.
 fn draw(lobe: &dyn Lobe, wo: Vec3, seed: u64, count: u32) -> [Vec<Point>; 2] {
     let mut points = [vec![], vec![]];
     for i in 0..count {
         let mut numbers = Independent::new(seed, UVec2::ZERO, i);
         let (uc, u) = (numbers.get_1d(), numbers.get_2d());
-        if let Some(s) = lobe.sample(wo, uc, u) {
+        if let Some(s) = lobe.sample(wo, uc, u).filter(|s| !s.delta) {
             points[usize::from(s.wi.z < 0.0)].push(point(s.wi));
         }
     }

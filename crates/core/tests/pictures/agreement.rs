@@ -11,7 +11,7 @@ use eyebeam_core::integrator::IntegratorKind;
 use eyebeam_core::light::{DirectionalLight, EnvironmentDesc, ImageEnvironment};
 use eyebeam_core::material::{
     Bump, Conductor, Dielectric, DiffuseTransmission, Emissive, Mask, MaterialDesc, Metal, Mix, NamedMetal, NormalMap,
-    OrenNayar, Sheen, ThinDielectric,
+    OrenNayar, Plastic, Principled, Sheen, ThinDielectric, ThinFilm,
 };
 use eyebeam_core::names::Name;
 use eyebeam_core::render::Settings;
@@ -210,6 +210,42 @@ fn matte_and_thin() -> SceneDesc {
     desc
 }
 
+/// Layers and films, mirrors over something matte, and a lamp that is lacquered.
+fn layered() -> SceneDesc {
+    let mut desc = still_life(EnvironmentDesc::default());
+    let ball = Plastic { albedo: Rgb([0.8, 0.3, 0.1]).into(), ..Plastic::default() };
+    let oxide = Some(ThinFilm { thickness: 300.0, eta: 2.0 });
+    let steel = Conductor { thin_film: oxide, roughness: 0.6.into(), ..Conductor::default() };
+    let layers = Principled {
+        base_metalness: 0.3.into(),
+        transmission_weight: 0.5.into(),
+        coat_weight: 0.5.into(),
+        fuzz_weight: 0.5.into(),
+        specular_roughness: 0.5.into(),
+        ..Principled::default()
+    };
+    let lamp = Principled {
+        coat_weight: 1.0.into(),
+        emission_luminance: 800.0,
+        emission_color: Rgb([1.0, 0.8, 0.6]).into(),
+        ..Principled::default()
+    };
+    for (name, material) in [
+        ("lamp", MaterialDesc::Principled(lamp.into())),
+        ("ball", MaterialDesc::Plastic(ball)),
+        ("steel", MaterialDesc::Conductor(steel)),
+        ("layers", MaterialDesc::Principled(layers.into())),
+    ] {
+        with(&mut desc, name, material);
+    }
+    desc.shape.quad.push(quad([-1.0, 3.0, -1.0], [2.0, 0.0, 0.0], [0.0, 0.0, 2.0], "lamp"));
+    for (center, name) in [([1.2, 0.6, 0.2], "ball"), ([-1.2, 0.6, 0.2], "steel"), ([0.0, 0.4, 1.2], "layers")] {
+        desc.shape.sphere.push(sphere(center, center[1]));
+        desc.shape.sphere.last_mut().unwrap().material = Some(name.to_owned());
+    }
+    desc
+}
+
 /// Inside of a ball that shines inwards, and a lamp so close to the floor that it fills most of its sky.
 fn enclosed() -> SceneDesc {
     let mut desc = still_life(DARK);
@@ -298,6 +334,7 @@ fn where_light_sampling_helps() {
     check("sun", &sun());
     check("frosted", &frosted());
     check("matte and thin", &matte_and_thin());
+    check("layered", &layered());
     check("worn", &worn());
 }
 

@@ -3,6 +3,8 @@
 use std::f64::consts::{LN_2, LOG2_E};
 use std::ops::{Add, AddAssign, Mul};
 
+use crate::color::{XYZ_TO_RGB, x_bar, y_bar, z_bar};
+
 /// How many bands.
 const COUNT: usize = 12;
 /// Where the first begins, and how wide each is, nm.
@@ -109,10 +111,7 @@ impl Observer {
     pub(super) fn new() -> Self {
         let xyz = [x_bar, y_bar, z_bar].map(|curve| Bands(std::array::from_fn(|band| integral(curve, band))));
         let row = |[x, y, z]: [f64; 3]| (xyz[0] * x + xyz[1] * y + xyz[2] * z) * Self::EFFICACY;
-        // IEC 61966-2-1.
-        let weights =
-            [[3.240_97, -1.537_383, -0.498_611], [-0.969_244, 1.875_968, 0.041_555], [0.055_63, -0.203_977, 1.056_972]];
-        Self { weights: weights.map(row) }
+        Self { weights: XYZ_TO_RGB.map(row) }
     }
 
     /// The colour; channels outside of Rec. 709 are negative.
@@ -125,27 +124,6 @@ impl Observer {
 fn integral(curve: fn(f64) -> f64, band: usize) -> f64 {
     let start = FIRST + band as f64 * WIDTH;
     (0..WIDTH as u32).map(|nm| curve(start + f64::from(nm) + 0.5)).sum()
-}
-
-/// A Gaussian with one width on either side, each as its inverse.
-fn lobe(nm: f64, center: f64, left: f64, right: f64) -> f64 {
-    let t = (nm - center) * if nm < center { left } else { right };
-    libm::exp(-0.5 * t * t)
-}
-
-// The CIE 1931 colour matching functions as fitted by Wyman, Sloan & Shirley 2013, jcgt.org/published/0002/02/01.
-
-fn x_bar(nm: f64) -> f64 {
-    1.056 * lobe(nm, 599.8, 0.0264, 0.0323) + 0.362 * lobe(nm, 442.0, 0.0624, 0.0374)
-        - 0.065 * lobe(nm, 501.1, 0.0490, 0.0382)
-}
-
-fn y_bar(nm: f64) -> f64 {
-    0.821 * lobe(nm, 568.8, 0.0213, 0.0247) + 0.286 * lobe(nm, 530.9, 0.0613, 0.0322)
-}
-
-fn z_bar(nm: f64) -> f64 {
-    1.217 * lobe(nm, 437.0, 0.0845, 0.0278) + 0.681 * lobe(nm, 459.0, 0.0385, 0.0725)
 }
 
 #[cfg(test)]

@@ -12,7 +12,8 @@ use crate::film::{BlackmanHarris, BoxFilter, FilterDesc, Gaussian, Image, Mitche
 use crate::light::select::{LightBounds, LightSelection};
 use crate::light::{DirectionalLight, EnvironmentDesc, ImageEnvironment, NoLight};
 use crate::material::{
-    Conductor, Dielectric, DiffuseTransmission, Emissive, Lambertian, MaterialDesc, Metal, OrenNayar, Sheen,
+    Conductor, Dielectric, DiffuseTransmission, Emissive, Lambertian, MaterialDesc, Metal, OrenNayar, Plastic,
+    Principled, Sheen,
 };
 use crate::sampler::SamplerKind;
 use crate::shape::{MeshDesc, QuadDesc, SphereDesc};
@@ -93,6 +94,13 @@ fn lobes() -> impl Iterator<Item = (&'static str, MaterialDesc, Reciprocal)> {
         DiffuseTransmission { reflectance: Rgb([0.1, 0.3, 0.05]).into(), transmittance: Rgb([0.2, 0.5, 0.0]).into() };
     let velvet =
         Sheen { color: Rgb([0.9, 0.4, 0.2]).into(), roughness: 0.4.into(), albedo: Rgb([0.2, 0.1, 0.0]).into() };
+    let layers = Principled {
+        base_metalness: 0.3.into(),
+        transmission_weight: 0.4.into(),
+        coat_weight: 0.5.into(),
+        fuzz_weight: 0.5.into(),
+        ..Principled::default()
+    };
     [
         ("matte", MaterialDesc::Lambertian(Lambertian { albedo: Rgb([0.9, 0.5, 0.1]).into() }), Reciprocal::Yes),
         (
@@ -108,9 +116,11 @@ fn lobes() -> impl Iterator<Item = (&'static str, MaterialDesc, Reciprocal)> {
             Reciprocal::No,
         ),
         ("rough metal", MaterialDesc::Conductor(gold), Reciprocal::Yes),
+        ("plastic", MaterialDesc::Plastic(Plastic { roughness: 0.4.into(), ..Plastic::default() }), Reciprocal::Yes),
+        ("layers", MaterialDesc::Principled(layers.into()), Reciprocal::No),
         (
             "rough glass",
-            MaterialDesc::Dielectric(Dielectric { roughness: 0.5.into(), ..Dielectric::default() }),
+            MaterialDesc::Dielectric(Dielectric { eta: 1.5, roughness: 0.5.into(), ..Dielectric::default() }),
             Reciprocal::Yes,
         ),
     ]
