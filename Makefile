@@ -96,6 +96,12 @@ agree-peers: peers-setup
 figures:
 	cargo run --release -- figures paper -o docs/figures
 
+# The pictures of materials and textures (docs/materials, docs/textures).
+.PHONY: figures-materials
+figures-materials:
+	cargo build --release --locked
+	python3 -B docs/materials/figures.py
+
 # The pictures in the README.
 pictures:
 	mkdir -p docs/pictures
