@@ -113,6 +113,16 @@ pictures:
 	cargo run --release -- render scenes/roughness.toml -o docs/pictures/roughness.png --spp 512 -r 800x300
 	cargo run --release -- render scenes/two-spheres.toml -o docs/pictures/two-spheres.png --spp 1024
 
+# The pictures of the gallery (docs/gallery): less than half an hour on two cores.
+.PHONY: gallery meshes
+gallery:
+	cargo build --release --locked
+	python3 scenes/gallery.py --eyebeam target/release/eyebeam
+
+# What scenes/generate.py writes: meshes, and scenes that are long lists.
+meshes:
+	python3 scenes/generate.py
+
 # The schema that editors use; a test checks that it is up to date.
 schema:
 	cargo run --release -- schema > docs/formats/scene.schema.json

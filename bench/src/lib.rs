@@ -2,6 +2,7 @@
 #![deny(unsafe_code)]
 
 pub mod kernel;
+pub mod materials;
 pub mod measure;
 pub mod peers;
 pub mod strategies;

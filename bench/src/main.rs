@@ -10,9 +10,9 @@ use clap::{Parser, Subcommand};
 use eyebeam_bench::kernel::{self, Embree, Options};
 use eyebeam_bench::measure::{median, read_scene, render, samples, shrink, thread_time};
 use eyebeam_bench::peers::{self, Peer};
-use eyebeam_bench::strategies;
 use eyebeam_bench::textbook::Textbook;
 use eyebeam_bench::textures;
+use eyebeam_bench::{materials, strategies};
 use eyebeam_core::desc::SceneDesc;
 use eyebeam_core::scene::Scene;
 
@@ -42,6 +42,8 @@ enum Command {
     Kernel(Options),
     /// What light sampling, Sobol points, the light tree and the choice of strategy are worth
     Strategies,
+    /// What a sample of each material costs, beside a lambertian one
+    Materials,
     /// What a lookup of each kind of texture costs, and what filters of pictures are worth
     Textures,
     /// A picture of a scene that several renderers are compared on (bench/peers)
@@ -58,6 +60,7 @@ fn main() -> Result<(), Box<dyn Error>> {
             kernel::run(options, args.rounds as usize, embree.as_ref(), &mut stdout())
         }
         Command::Strategies => strategies::run(args.rounds as usize),
+        Command::Materials => materials::run(args.rounds as usize),
         Command::Textures => textures::run(args.rounds as usize),
         Command::Peer(options) => peers::run(options, args.spp),
     }

@@ -169,10 +169,16 @@ fn hall(count: u32) -> SceneDesc {
         u: [40.0, 0.0, 0.0],
         v: [0.0, 0.0, -40.0],
         material: Some("floor".to_owned()),
+        ..QuadDesc::default()
     });
     for x in -2..=2 {
         let center = [3.0 * x as f32, 1.0, 0.0];
-        desc.shape.sphere.push(SphereDesc { center, radius: 1.0, material: Some("floor".to_owned()) });
+        desc.shape.sphere.push(SphereDesc {
+            center,
+            radius: 1.0,
+            material: Some("floor".to_owned()),
+            ..SphereDesc::default()
+        });
     }
     // Three classes of lamps, each a mesh of one radiance.
     for class in 0..3 {

@@ -105,7 +105,7 @@ pub fn read_scene(path: &Path) -> Result<SceneDesc, Box<dyn Error>> {
 fn add(desc: &mut SceneDesc, shape: Shape, folder: &Path) -> Result<(), Box<dyn Error>> {
     match shape {
         Shape::Sphere { center, radius, material } => {
-            desc.shape.sphere.push(SphereDesc { center, radius, material: Some(material) });
+            desc.shape.sphere.push(SphereDesc { center, radius, material: Some(material), ..SphereDesc::default() });
         }
         Shape::Quad { corner, u, v, material, emission } => {
             let material = match emission {
@@ -117,7 +117,7 @@ fn add(desc: &mut SceneDesc, shape: Shape, folder: &Path) -> Result<(), Box<dyn 
                 }
                 None => material,
             };
-            desc.shape.quad.push(QuadDesc { corner, u, v, material: Some(material) });
+            desc.shape.quad.push(QuadDesc { corner, u, v, material: Some(material), ..QuadDesc::default() });
         }
         Shape::Ply { file, material } => {
             let mesh = eyebeam_io::scene::ply::read_ply(&folder.join(file))?;

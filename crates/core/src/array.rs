@@ -12,6 +12,13 @@ pub(crate) fn array<'de, D: Deserializer<'de>, T: Deserialize<'de> + Copy + Defa
     Array::deserialize(deserializer).map(|Array(items)| items)
 }
 
+/// As [`array`], of `Option<[T; N]>`.
+pub(crate) fn optional_array<'de, D: Deserializer<'de>, T: Deserialize<'de> + Copy + Default, const N: usize>(
+    deserializer: D,
+) -> Result<Option<[T; N]>, D::Error> {
+    array(deserializer).map(Some)
+}
+
 /// As [`array`], of `Vec<[T; N]>`.
 pub(crate) fn arrays<'de, D: Deserializer<'de>, T: Deserialize<'de> + Copy + Default, const N: usize>(
     deserializer: D,

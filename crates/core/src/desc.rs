@@ -10,12 +10,14 @@ use std::iter;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
+use crate::array::array;
 use crate::camera::CameraDesc;
 use crate::film::{BoxFilter, FilterDesc};
 use crate::integrator::IntegratorKind;
 use crate::light::select::LightSelection;
 use crate::light::{EnvironmentDesc, LightsDesc};
 use crate::material::{self, MaterialDesc};
+use crate::motion::check_shutter;
 use crate::sampler::SamplerKind;
 use crate::shape::ShapesDesc;
 use crate::texture::{self, TextureDesc};
@@ -75,6 +77,10 @@ pub struct RenderDesc {
     /// Samples of higher luminance are darkened to this one, which takes away bright specks, and light; 0 is off.
     #[schemars(range(min = 0.0))]
     pub clamp: f32,
+    /// When the shutter opens and closes, from 0, in the time of the keys that move shapes and the camera: what moves in between
+    /// is blurred. Twice the same time freezes it.
+    #[serde(deserialize_with = "array")]
+    pub shutter: [f32; 2],
 }
 
 impl Default for RenderDesc {
@@ -91,6 +97,7 @@ impl Default for RenderDesc {
             light_selection: LightSelection::default(),
             transparent: false,
             clamp: 0.0,
+            shutter: [0.0, 1.0],
         }
     }
 }
@@ -123,6 +130,7 @@ impl RenderDesc {
         c.count("spp", self.spp, Self::MAX_SPP);
         c.within("filter", |c| self.filter.check(c));
         c.in_range("clamp", self.clamp, 0.0, Self::MAX_CLAMP);
+        check_shutter(self.shutter, c);
         if self.max_depth > Self::MAX_DEPTH {
             let hint = format!("use a whole number from 0 to {}", Self::MAX_DEPTH);
             c.problem(
@@ -138,6 +146,9 @@ impl SceneDesc {
     /// The material of shapes that name none. A scene may define it.
     pub const DEFAULT_MATERIAL: &str = "default";
 
+    /// The most straight pieces of all motion while the shutter is open.
+    const MOST_PIECES: f64 = 4e6;
+
     /// Everything that is wrong; a scene can be built if nothing is.
     pub fn check(&self) -> Vec<Problem> {
         let mut c = Checker::default();
@@ -150,10 +161,17 @@ impl SceneDesc {
         c.within("material", |c| material::check(&self.material, &textures, c));
         c.within("shape", |c| {
             self.shape.check_count(c);
+            let mut pieces = 0.0;
             for (kind, index, shape) in self.shape.iter() {
                 c.within(kind, |c| {
                     c.within(index, |c| {
                         shape.check(c);
+                        pieces += shape.motion().check(self.render.shutter, c);
+                        if pieces > Self::MOST_PIECES {
+                            let hint = format!("at most {} are allowed", Self::MOST_PIECES);
+                            c.problem("motion", "all motion has too many straight pieces up to here", Some(hint));
+                            pieces = 0.0;
+                        }
                         self.check_material_name(shape.material(), c);
                     });
                 });

@@ -135,7 +135,7 @@ impl<'s> SurfaceInteraction<'s> {
     #[inline]
     pub fn spawn_ray(&self, w: Vec3) -> Ray {
         let ray = Ray::new(self.point.ray_origin(self.wo_world, w), renormalize(w));
-        Ray { apart: [self.left_along(w), Slot::NONE], ..ray }
+        Ray { apart: [self.left_along(w), Slot::NONE], time: self.met.time(), ..ray }
     }
 
     /// The primitive, if what leaves it along `w` does not come back to it.
@@ -155,7 +155,8 @@ impl<'s> SurfaceInteraction<'s> {
                 let distance = to.length();
                 // Neither the distance nor the length of the direction is exact.
                 let t_max = distance * (1.0 - 8.0 * f32::EPSILON);
-                Ray { t_max, apart: [self.left_along(light.wi), on], ..Ray::new(o, to / distance) }
+                let apart = [self.left_along(light.wi), on];
+                Ray { t_max, apart, time: self.met.time(), ..Ray::new(o, to / distance) }
             }
         }
     }

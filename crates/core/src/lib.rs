@@ -14,7 +14,7 @@
 //! use eyebeam_core::shape::SphereDesc;
 //!
 //! let mut desc = SceneDesc::default();
-//! desc.shape.sphere.push(SphereDesc { center: [0.0, 0.0, 0.0], radius: 1.0, material: None });
+//! desc.shape.sphere.push(SphereDesc { center: [0.0, 0.0, 0.0], radius: 1.0, ..SphereDesc::default() });
 //! let scene = Scene::build(&desc).unwrap();
 //! let settings = Settings { width: 32, height: 32, spp: 4, ..Settings::from(&desc.render) };
 //! let mut render = Render::new(&scene, settings);
@@ -37,6 +37,7 @@ pub mod look;
 pub mod material;
 pub mod math;
 pub mod medium;
+pub mod motion;
 pub mod names;
 pub mod render;
 pub mod sampler;

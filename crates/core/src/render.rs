@@ -55,6 +55,7 @@ impl From<&RenderDesc> for Settings {
             transparent,
             clamp,
             light_selection: _,
+            shutter: _,
         } = desc.clone();
         let film = FilmOptions { transparent, clamp, variance: false };
         let threads = thread::available_parallelism().unwrap_or(NonZeroUsize::MIN);

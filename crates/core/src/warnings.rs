@@ -185,7 +185,12 @@ mod tests {
         // A lamp that no shape is made of, and one that some are.
         let mut desc = with_lamp(1.0);
         assert_eq!(said(&desc), [NOTHING]);
-        desc.shape.sphere.push(SphereDesc { center: [0.0; 3], radius: 1.0, material: Some("lamp".to_owned()) });
+        desc.shape.sphere.push(SphereDesc {
+            center: [0.0; 3],
+            radius: 1.0,
+            material: Some("lamp".to_owned()),
+            ..SphereDesc::default()
+        });
         assert!(said(&desc).is_empty());
         let mut desc = dark.clone();
         desc.light.point = vec![point(0.0)];

@@ -5,6 +5,7 @@ mod determinism;
 mod develop;
 mod examples;
 mod files;
+mod gallery;
 mod output;
 mod pictures;
 mod selftest;

@@ -15,7 +15,7 @@ use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 use crate::array::array;
-use crate::camera::{BokehDesc, FisheyeDesc, OrthographicDesc, PanoramaDesc};
+use crate::camera::{BokehDesc, CameraKey, FisheyeDesc, OrthographicDesc, PanoramaDesc};
 use crate::validate::Checker;
 
 /// Where the eye is, where it looks, and through what: a perspective lens, or `[camera.KIND]`.
@@ -50,6 +50,9 @@ pub struct CameraDesc {
     pub panorama: Option<PanoramaDesc>,
     /// A circle of directions instead of perspective.
     pub fisheye: Option<FisheyeDesc>,
+    /// Where it is at some times; it rests if absent.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    pub motion: Vec<CameraKey>,
 }
 
 impl Default for CameraDesc {
@@ -66,6 +69,7 @@ impl Default for CameraDesc {
             orthographic: None,
             panorama: None,
             fisheye: None,
+            motion: Vec::new(),
         }
     }
 }
@@ -81,7 +85,8 @@ impl CameraDesc {
     }
 
     pub(crate) fn check(&self, c: &mut Checker) {
-        self.check_pose(c);
+        Self::check_pose(self.look_from, self.look_at, self.up, c);
+        self.check_motion(c);
         if let Some(vfov) = self.vfov {
             c.in_range("vfov", vfov, 0.001, 179.0);
         }
@@ -98,9 +103,9 @@ impl CameraDesc {
         self.check_kind(c);
     }
 
-    fn check_pose(&self, c: &mut Checker) {
-        c.line_of_sight("look_from", self.look_from, self.look_at, "the camera looks");
-        c.up(self.up, self.look_from, self.look_at);
+    pub(super) fn check_pose(look_from: [f32; 3], look_at: [f32; 3], up: [f32; 3], c: &mut Checker) {
+        c.line_of_sight("look_from", look_from, look_at, "the camera looks");
+        c.up(up, look_from, look_at);
     }
 
     fn check_lens(&self, c: &mut Checker) {

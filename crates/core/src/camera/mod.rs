@@ -6,9 +6,12 @@
 mod aperture;
 mod desc;
 mod fisheye;
+mod motion;
 mod orthographic;
 mod panorama;
 mod thin_lens;
+
+use std::sync::Arc;
 
 use eyebeam_bvh::Ray;
 use glam::{Vec2, Vec3};
@@ -19,13 +22,24 @@ use crate::sampler::Sampler;
 pub use aperture::BokehDesc;
 pub use desc::CameraDesc;
 pub use fisheye::{Fisheye, FisheyeDesc, FisheyeProjection};
+pub use motion::CameraKey;
+use motion::Exposure;
 pub use orthographic::{Orthographic, OrthographicDesc};
 pub use panorama::{Panorama, PanoramaDesc};
 pub use thin_lens::ThinLens;
 
 /// A camera ready to make rays for a picture of a given size.
+#[derive(Clone, Debug)]
+pub struct Camera {
+    /// If it moves, in the middle of the time while the shutter is open.
+    kind: Kind,
+    /// If anything moves.
+    exposure: Option<Arc<Exposure>>,
+}
+
+/// A camera at rest.
 #[derive(Clone, Copy, Debug)]
-pub enum Camera {
+enum Kind {
     /// Perspective, with a pinhole or a lens.
     ThinLens(ThinLens),
     /// Parallel rays.
@@ -37,9 +51,81 @@ pub enum Camera {
 }
 
 impl Camera {
-    /// The camera for `width` × `height` pixels, which are square but in a panorama. The description must have passed
-    /// [`SceneDesc::check`](crate::desc::SceneDesc::check).
+    /// The camera for `width` × `height` pixels, which are square but in a panorama, at rest, whatever its keys say. The description
+    /// must have passed [`SceneDesc::check`](crate::desc::SceneDesc::check).
     pub fn new(desc: &CameraDesc, width: u32, height: u32) -> Self {
+        Self { kind: Kind::new(desc, width, height), exposure: None }
+    }
+
+    /// As [`new`](Self::new), in motion; its rays have times while the shutter is open, if it moves or shapes do.
+    pub(crate) fn exposed(desc: &CameraDesc, width: u32, height: u32, shutter: [f32; 2], shapes_move: bool) -> Self {
+        let exposure = Exposure::new(desc, [width, height], shutter, shapes_move).map(Arc::new);
+        Self { kind: Kind::new(&desc.halfway(shutter), width, height), exposure }
+    }
+
+    /// The ray through a point of the film, its direction of length 1; none where the film is black, beside the circle of
+    /// a fisheye. Where something moves, its time takes a dimension of the sampler; a lens takes two, a camera without one
+    /// takes none.
+    #[inline]
+    pub fn ray(&self, film: Vec2, sampler: &mut Sampler) -> Option<Ray> {
+        match &self.exposure {
+            None => self.kind.ray(film, sampler),
+            Some(exposure) => self.exposed_ray(exposure, film, sampler),
+        }
+    }
+
+    #[inline(never)]
+    fn exposed_ray(&self, exposure: &Exposure, film: Vec2, sampler: &mut Sampler) -> Option<Ray> {
+        let time = exposure.time(sampler.get_1d());
+        let ray = exposure.kind(time).unwrap_or(self.kind).ray(film, sampler)?;
+        Some(Ray { time, ..ray })
+    }
+
+    /// As [`ray`](Self::ray), through the middle of the lens, in the middle of the time while the shutter is open.
+    pub fn central_ray(&self, film: Vec2) -> Option<Ray> {
+        let ray = match &self.kind {
+            Kind::ThinLens(camera) => camera.central_ray(film),
+            Kind::Orthographic(camera) => camera.ray(film),
+            Kind::Panorama(camera) => camera.ray(film),
+            Kind::Fisheye(camera) => camera.ray(film)?,
+        };
+        Some(Ray { time: self.exposure.as_ref().map_or(ray.time, |exposure| exposure.time(0.5)), ..ray })
+    }
+
+    /// The point of the film, perhaps outside of the picture, that shows a point of the world if the lens is a pinhole;
+    /// none if the camera does not look there: behind the eye, or outside of the circle of a fisheye. If the camera moves, in
+    /// the middle of the time while the shutter is open.
+    pub fn project(&self, p: Vec3) -> Option<Vec2> {
+        let p = self.kind.pose().to_local(p);
+        let film = match &self.kind {
+            Kind::ThinLens(camera) => camera.project(p),
+            Kind::Orthographic(camera) => camera.project(p),
+            Kind::Panorama(camera) => camera.project(p),
+            Kind::Fisheye(camera) => camera.project(p),
+        };
+        film.filter(|film| film.is_finite())
+    }
+
+    /// Where it is, metres. If it moves, in the middle of the time while the shutter is open.
+    pub fn eye(&self) -> Vec3 {
+        self.kind.pose().eye
+    }
+
+    /// The unit direction in the middle of the picture, at that time.
+    pub fn forward(&self) -> Vec3 {
+        self.kind.pose().forward
+    }
+
+    /// Its eye and direction when it makes rays of this time.
+    pub(crate) fn axis(&self, time: f32) -> (Vec3, Vec3) {
+        let moved = self.exposure.as_ref().and_then(|exposure| exposure.kind(time));
+        let kind = moved.unwrap_or(self.kind);
+        (kind.pose().eye, kind.pose().forward)
+    }
+}
+
+impl Kind {
+    fn new(desc: &CameraDesc, width: u32, height: u32) -> Self {
         match (&desc.orthographic, &desc.panorama, &desc.fisheye) {
             (Some(kind), _, _) => Self::Orthographic(Orthographic::new(desc, kind, width, height)),
             (_, Some(PanoramaDesc {}), _) => Self::Panorama(Panorama::new(desc, width, height)),
@@ -48,49 +134,14 @@ impl Camera {
         }
     }
 
-    /// The ray through a point of the film, its direction of length 1; none where the film is black, beside the circle of
-    /// a fisheye. A lens takes two dimensions of the sampler, a camera without one takes none.
     #[inline]
-    pub fn ray(&self, film: Vec2, sampler: &mut Sampler) -> Option<Ray> {
+    fn ray(&self, film: Vec2, sampler: &mut Sampler) -> Option<Ray> {
         match self {
             Self::ThinLens(camera) => Some(camera.ray(film, sampler)),
             Self::Orthographic(camera) => Some(camera.ray(film)),
             Self::Panorama(camera) => Some(camera.ray(film)),
             Self::Fisheye(camera) => camera.ray(film),
         }
-    }
-
-    /// As [`ray`](Self::ray), through the middle of the lens.
-    pub fn central_ray(&self, film: Vec2) -> Option<Ray> {
-        match self {
-            Self::ThinLens(camera) => Some(camera.central_ray(film)),
-            Self::Orthographic(camera) => Some(camera.ray(film)),
-            Self::Panorama(camera) => Some(camera.ray(film)),
-            Self::Fisheye(camera) => camera.ray(film),
-        }
-    }
-
-    /// The point of the film, perhaps outside of the picture, that shows a point of the world if the lens is a pinhole;
-    /// none if the camera does not look there: behind the eye, or outside of the circle of a fisheye.
-    pub fn project(&self, p: Vec3) -> Option<Vec2> {
-        let p = self.pose().to_local(p);
-        let film = match self {
-            Self::ThinLens(camera) => camera.project(p),
-            Self::Orthographic(camera) => camera.project(p),
-            Self::Panorama(camera) => camera.project(p),
-            Self::Fisheye(camera) => camera.project(p),
-        };
-        film.filter(|film| film.is_finite())
-    }
-
-    /// Where it is, metres.
-    pub fn eye(&self) -> Vec3 {
-        self.pose().eye
-    }
-
-    /// The unit direction in the middle of the picture.
-    pub fn forward(&self) -> Vec3 {
-        self.pose().forward
     }
 
     fn pose(&self) -> &Pose {
@@ -162,7 +213,7 @@ mod tests {
                 let camera = Camera::new(&desc, 300, 200);
                 let film = Vec2::new(300.0 * x, 200.0 * y);
                 let Some(ray) = camera.ray(film, &mut sampler(0)) else {
-                    prop_assert!(matches!(camera, Camera::Fisheye(_)));
+                    prop_assert!(matches!(camera.kind, Kind::Fisheye(_)));
                     continue;
                 };
                 prop_assert!((ray.d.length() - 1.0).abs() < 1e-6);
@@ -193,7 +244,7 @@ mod tests {
                     let ray = camera.ray(at * size, &mut sampler(1));
                     let fine = |ray: Ray| ray.o.is_finite() && (ray.d.length() - 1.0).abs() < 1e-6;
                     assert!(ray.is_none_or(fine), "{width} x {height} at {at}: {desc:?} {ray:?}");
-                    assert!(ray.is_some() || matches!(camera, Camera::Fisheye(_)));
+                    assert!(ray.is_some() || matches!(camera.kind, Kind::Fisheye(_)));
                 }
             }
         }

@@ -15,15 +15,15 @@ use crate::scene::{Look, Scene};
 /// What is seen through a pixel. With `through`, albedo and normals are those of what perfect mirrors and smooth glass show,
 /// the albedo times what they let through.
 pub(crate) fn first_hit(scene: &Scene, unit: &Unit<'_>, pixel: UVec2, through: bool) -> FirstHit {
-    let axis = Axis { eye: unit.camera.eye(), forward: unit.camera.forward() };
     let most_mirrors = if through { MOST_MIRRORS } else { 0 };
     let mut mean = Mean::default();
     for sample in unit.samples.clone() {
         let mut camera = unit.camera_sample(pixel, sample);
         let weight = f64::from(camera.weight.max(0.0));
         mean.all += weight;
-        if let Some(look) = camera.ray.and_then(|ray| scene.look(&ray)) {
-            mean.add_place(&look, &axis, weight);
+        if let Some((look, time)) = camera.ray.and_then(|ray| Some((scene.look(&ray)?, ray.time))) {
+            let (eye, forward) = unit.camera.axis(time);
+            mean.add_place(&look, &Axis { eye, forward }, weight);
             if let Some(shown) = Shown::follow(scene, look, most_mirrors, &mut camera.sampler) {
                 mean.add_surface(&shown, weight);
             }

@@ -95,6 +95,9 @@ pub(crate) struct Lights {
 }
 
 impl Lights {
+    /// The number of lights that are found by the directions of surfaces alone.
+    pub(crate) const UNSAMPLED: u32 = u32::MAX;
+
     /// Those that are infinitely far away.
     pub(crate) fn far(environment: Environment, disks: Vec<Disk>) -> Self {
         let luminance = |s: Spectrum| Rgb(s.to_rgb()).luminance();
@@ -167,7 +170,7 @@ impl Lights {
         let Some(Scattered { p, n, pdf }) = scattered else {
             return 1.0;
         };
-        let Light::Area(light) = &self.lights[index as usize] else {
+        let Some(Light::Area(light)) = self.lights.get(index as usize) else {
             return 1.0;
         };
         let chance = self.near_chance(p, n) * self.selector.pmf(p, n, index);

@@ -100,7 +100,7 @@ impl Dielectric {
             c.within("thin_film", |c| film.check(c));
         }
         for (key, value, hi) in
-            [("absorption", self.absorption, Self::DARKEST), ("transmittance", self.transmittance, 1.0)]
+            [("absorption", self.absorption, Filling::DARKEST), ("transmittance", self.transmittance, 1.0)]
         {
             if let Some(bad) = value.and_then(|rgb| rgb.0.into_iter().find(|channel| !(0.0..=hi).contains(channel))) {
                 c.in_range(key, bad, 0.0, hi);
@@ -117,19 +117,19 @@ impl Dielectric {
         }
     }
 
-    /// The strongest absorption, 1/m: a micrometre is opaque.
-    const DARKEST: f32 = 1e6;
     const HIGHEST_PRIORITY: u32 = 1000;
 
     /// What is inside.
     pub(crate) fn filling(&self) -> Filling {
-        let from_color = |share: f32| -libm::logf(share) / self.transmittance_distance;
-        let absorption = match (self.absorption, self.transmittance) {
-            (Some(absorption), _) => absorption.0,
-            (None, Some(transmittance)) => transmittance.0.map(|share| from_color(share).clamp(0.0, Self::DARKEST)),
-            (None, None) => [0.0; 3],
-        };
-        Filling { sigma_a: Spectrum::from_rgb(absorption), eta: self.eta, priority: self.priority }
+        match self.absorption {
+            Some(Rgb(absorption)) => {
+                Filling { sigma_a: Spectrum::from_rgb(absorption), eta: self.eta, priority: self.priority }
+            }
+            None => {
+                let color = self.transmittance.unwrap_or(Rgb::grey(1.0));
+                Filling::of_color(color, self.transmittance_distance, self.eta, self.priority)
+            }
+        }
     }
 
     #[inline]

@@ -13,11 +13,12 @@ pub(crate) struct Pose {
 }
 
 impl Pose {
-    /// Right angles hold in double precision, even where `up` points almost along the line of sight.
+    /// Looks somewhere, also if that is nowhere. Right angles hold in double precision, even where `up` points almost along the line of sight.
     pub(crate) fn new(eye: [f32; 3], at: [f32; 3], up: [f32; 3]) -> Self {
         let [eye, at, up] = [eye, at, up].map(|v| Vec3::from(v).as_dvec3());
-        let forward = (at - eye).normalize();
-        let right = forward.cross(up.normalize()).normalize();
+        let forward = (at - eye).normalize_or(DVec3::NEG_Z);
+        let right = forward.cross(up.normalize_or(DVec3::Y)).try_normalize();
+        let right = right.unwrap_or_else(|| forward.any_orthonormal_vector());
         let down = forward.cross(right);
         let [eye, right, down, forward] = [eye, right, down, forward].map(|v: DVec3| v.as_vec3());
         Self { eye, right, down, forward }

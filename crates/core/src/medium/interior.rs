@@ -9,7 +9,7 @@
 
 use glam::Vec3;
 
-use crate::color::Spectrum;
+use crate::color::{Rgb, Spectrum};
 use crate::interaction::SurfaceInteraction;
 use crate::light::{LightSample, Target};
 use crate::material::{Bsdf, BsdfSample};
@@ -28,6 +28,16 @@ pub struct Filling {
 }
 
 impl Filling {
+    /// The strongest absorption, 1/m: a micrometre is opaque.
+    pub(crate) const DARKEST: f32 = 1e6;
+
+    /// Of which a distance, metres, leaves a colour of white light.
+    pub(crate) fn of_color(color: Rgb, distance: f32, eta: f32, priority: u32) -> Self {
+        let absorption =
+            |share: f32| if share < 1.0 { (-libm::logf(share) / distance).min(Self::DARKEST) } else { 0.0 };
+        Self { sigma_a: Spectrum::from_rgb(color.0.map(absorption)), eta, priority }
+    }
+
     const NONE: Self = Self { sigma_a: Spectrum::BLACK, eta: 1.0, priority: 0 };
 }
 

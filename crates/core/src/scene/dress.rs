@@ -70,11 +70,11 @@ impl Scene {
 
     /// Whether there is anything of a surface where a ray meets it.
     pub(super) fn is_there(&self, ray: &Ray, hit: &Hit) -> bool {
-        let met = Met::new(self, hit);
+        let met = Met::new(self, hit, ray.time);
         if !met.object.has_holes {
             return true;
         }
-        let textures = met.textures(&self.point(&met, ray, hit));
+        let textures = met.textures(&met.point(ray, hit));
         let mut dice = Dice::new(ray, hit);
         let mut opacity = 1.0;
         let mut material = self.material(&met);
@@ -96,12 +96,12 @@ impl Scene {
     pub(super) fn meet(&self, ray: &Ray) -> Option<(Ray, Hit)> {
         let mut ray = *ray;
         loop {
-            let is_round = |hit: &Hit| self.objects[self.object_of[hit.prim as usize] as usize].is_round;
+            let is_round = |hit: &Hit| self.objects[self.object_of(hit) as usize].is_round;
             let hit = self.bvh.intersect_where(&ray, |hit| is_round(hit) || self.is_there(&ray, hit))?;
             if !is_round(&hit) || self.is_there(&ray, &hit) {
                 return Some((ray, hit));
             }
-            let point = self.point(&Met::new(self, &hit), &ray, &hit);
+            let point = Met::new(self, &hit, ray.time).point(&ray, &hit);
             let t_max = ray.t_max - hit.t;
             ray = Ray { t_max, time: ray.time, ..Ray::new(point.ray_origin(-ray.d, ray.d), ray.d) };
         }
@@ -117,7 +117,7 @@ impl Scene {
         loop {
             let turned = match material {
                 MaterialDesc::NormalMap(map) => map.normal(&textures).map(|n| along(ns, tangents).to_world(n)),
-                MaterialDesc::Bump(bump) => relief(bump, &textures, ns, tangents),
+                MaterialDesc::Bump(bump) => relief(bump, &textures, met, ns, tangents),
                 _ => None,
             };
             ns = turned.map_or(ns, |turned| bent(turned, point.n, ray.d));
@@ -143,7 +143,7 @@ fn bent(ns: Vec3, n: Vec3, d: Vec3) -> Vec3 {
 }
 
 /// The normal of a relief.
-fn relief(bump: &Bump, textures: &TexturesAt<'_>, ns: Vec3, [u, v]: [Vec3; 2]) -> Option<Vec3> {
+fn relief(bump: &Bump, textures: &TexturesAt<'_>, met: &Met<'_>, ns: Vec3, [u, v]: [Vec3; 2]) -> Option<Vec3> {
     /// Of the size of coordinates, and metres: so short that textures change evenly, so long that single precision tells.
     const STEP: f32 = 2e-4;
     let step = STEP * (1.0 + textures.at.p.abs().max_element());
@@ -152,7 +152,7 @@ fn relief(bump: &Bump, textures: &TexturesAt<'_>, ns: Vec3, [u, v]: [Vec3; 2]) -
     let moved = |axis: Vec3| {
         let by = step * frame.to_world(axis);
         let uv = if area == 0.0 { Vec2::ZERO } else { Vec2::new(by.cross(v).dot(ns), u.cross(by).dot(ns)) / area };
-        textures.moved(by, uv)
+        textures.moved(by, met.way_on_shape(by), uv)
     };
     let n = bump.normal([textures, &moved(Vec3::X), &moved(Vec3::Y)], step)?;
     Some(frame.to_world(n))

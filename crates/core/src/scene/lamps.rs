@@ -4,7 +4,7 @@ use eyebeam_bvh::{Primitive, Slot};
 use glam::Vec2;
 
 use crate::color::Spectrum;
-use crate::light::{AreaLight, Light};
+use crate::light::{AreaLight, Light, Lights};
 use crate::material::MaterialDesc;
 use crate::names::Name;
 use crate::sampling::{uniform_sphere, uniform_triangle};
@@ -31,6 +31,10 @@ impl Scene {
         for (i, primitive) in primitives.iter().enumerate() {
             let object = self.object_of[i] as usize;
             let Some(shine) = &shines[object] else { continue };
+            if self.objects[object].motion.is_some() {
+                self.objects[object].first_light = Some(Lights::UNSAMPLED);
+                continue;
+            }
             let index = lights.len() as u32;
             let varies = shine.color.is_none().then_some(index);
             let radiance = shine.color.unwrap_or_else(|| self.mean_radiance(primitive, i as u32));
@@ -63,7 +67,7 @@ impl Scene {
         let place = |i: u32| (i as f32 + 0.5) / PLACES as f32;
         for (x, y) in (0..PLACES).flat_map(|y| (0..PLACES).map(move |x| (place(x), place(y)))) {
             let Some((point, uv)) = place_on(primitive, Vec2::new(x, y)) else { continue };
-            let met = Met { scene: self, object, primitive: index - object.first_primitive, uv };
+            let met = Met { scene: self, object, primitive: index - object.first_primitive, uv, time: 0.0 };
             sum += self.expected_radiance(object.material, &met.textures(&point));
         }
         sum * (1.0 / (PLACES * PLACES) as f32)

@@ -1,18 +1,20 @@
 //! What is rendered: immutable, indices instead of names, ready for rays.
 
 mod dress;
+mod geometry;
 mod lamps;
 mod met;
 
 pub use eyebeam_bvh::{Bvh, Ray, Slot};
 
-use eyebeam_bvh::{BuildError, Hit, Primitive, Quality};
+use eyebeam_bvh::{BuildError, Hit, Quality};
 use glam::{Vec2, Vec3};
 
 pub(crate) use self::met::Met;
 
 pub(crate) use self::dress::Dress;
 use self::dress::Holes;
+use self::geometry::Geometry;
 use crate::camera::{Camera, CameraDesc};
 use crate::color::Spectrum;
 use crate::desc::SceneDesc;
@@ -21,8 +23,9 @@ use crate::interaction::SurfaceInteraction;
 use crate::light::{EnvironmentSampling, LightSample, Lights};
 use crate::material::MaterialDesc;
 use crate::medium::Filling;
+use crate::motion::{Course, Motion};
 use crate::names::Numbers;
-use crate::shape::{Plane, Smooth, SurfacePoint, VertexData};
+use crate::shape::{Plane, Smooth, VertexData};
 use crate::texture::{self, TextureDesc};
 use crate::validate::Problem;
 
@@ -61,17 +64,24 @@ pub struct Scene {
     lights: Lights,
     camera: CameraDesc,
     holes: Holes,
+    primitive_count: usize,
+    shutter: [f32; 2],
+    /// Whether a shape moves while the shutter is open.
+    moves: bool,
 }
 
 /// What the primitives of a shape have in common.
 #[derive(Clone, Debug)]
 struct Object {
     material: u32,
+    /// Index of the first primitive, or of the first instance if it moves.
     first_primitive: u32,
     /// Number of the first primitive's light; the next ones follow.
     first_light: Option<u32>,
     smooth: Option<Smooth>,
-    /// If it is a single quad.
+    /// If it is moved.
+    motion: Option<Motion>,
+    /// If it is a single quad that is not moved.
     plane: Option<Plane>,
     /// What vertices say to textures, if they do.
     vertices: Option<VertexData>,
@@ -146,41 +156,59 @@ impl Scene {
             numbers.resolve(material.parts());
         }
         let textures = texture::compile(&desc.texture);
-        let (mut primitives, mut object_of, mut objects) = (Vec::new(), Vec::new(), Vec::new());
+        // The check has found that every number is finite and that the primitives are not too many.
+        let refused = |e: BuildError| vec![Problem { path: vec!["shape".into()], message: e.to_string(), hint: None }];
+        let build = |geometry: &Geometry| match options.acceleration {
+            Acceleration::Auto => Bvh::build(geometry, Quality::auto(expected_rays(desc), geometry.primitives.len())),
+            Acceleration::Tree(quality) => Bvh::build(geometry, quality),
+            Acceleration::List => Bvh::list(geometry),
+        };
+        let (mut geometry, mut object_of, mut objects) = (Geometry::default(), Vec::new(), Vec::new());
         for (_, _, shape) in desc.shape.iter() {
-            let first = primitives.len();
-            shape.push_primitives(&mut primitives);
+            let first = geometry.primitives.len();
+            let motion =
+                Course::new(&shape.motion(), shape.origin()).motion(desc.render.shutter, geometry.objects.len() as u32);
+            let is_round = geometry.add(shape, motion.as_ref(), build).map_err(refused)?;
             let material = numbers.get(shape.material().unwrap_or(SceneDesc::DEFAULT_MATERIAL));
             let wear = Wear::of(&materials, material);
-            object_of.resize(primitives.len(), objects.len() as u32);
+            object_of.resize(geometry.primitives.len(), objects.len() as u32);
             objects.push(Object {
                 material,
                 first_primitive: first as u32,
                 first_light: None,
                 smooth: shape.smooth(),
-                plane: shape.plane(),
+                plane: shape.plane().filter(|_| motion.is_none()),
+                motion,
                 vertices: shape.vertex_data(),
                 origin: shape.origin(),
-                is_round: matches!(primitives.get(first), Some(Primitive::Sphere(_))),
+                is_round,
                 is_dressed: wear.is_dressed,
                 has_holes: wear.has_holes,
             });
         }
-        let bvh = match options.acceleration {
-            Acceleration::Auto => Bvh::build(&primitives, Quality::auto(expected_rays(desc), primitives.len())),
-            Acceleration::Tree(quality) => Bvh::build(&primitives, quality),
-            Acceleration::List => Bvh::list(&primitives),
-        };
-        // The check has found that every number is finite and that the primitives are not too many.
-        let refused = |e: BuildError| vec![Problem { path: vec!["shape".into()], message: e.to_string(), hint: None }];
-        let bvh = bvh.map_err(refused)?;
+        let bvh = build(&geometry).map_err(refused)?;
         let holes = objects.iter().map(Object::holes).max().unwrap_or_default();
         let (environment, sun) = desc.environment.compile(options.environment);
         let lights = Lights::far(environment, desc.light.far().chain(sun).collect());
         let camera = desc.camera.clone();
         let fillings = fillings(&materials);
-        let mut scene = Self { bvh, object_of, objects, materials, textures, fillings, lights, camera, holes };
-        let mut near = scene.find_lamps(&primitives);
+        let (primitive_count, shutter) = (geometry.primitive_count, desc.render.shutter);
+        let moves = objects.iter().filter_map(|object| object.motion.as_ref()).any(Motion::is_moving);
+        let mut scene = Self {
+            bvh,
+            object_of,
+            objects,
+            materials,
+            textures,
+            fillings,
+            lights,
+            camera,
+            holes,
+            primitive_count,
+            shutter,
+            moves,
+        };
+        let mut near = scene.find_lamps(&geometry.primitives);
         near.extend(desc.light.near());
         scene.lights = scene.lights.with_near(near, desc.render.light_selection);
         Ok(scene)
@@ -203,9 +231,9 @@ impl Scene {
 
     #[inline(always)]
     fn interaction(&self, ray: &Ray, hit: &Hit) -> SurfaceInteraction<'_> {
-        let met = Met::new(self, hit);
-        let light = met.object.first_light.map(|first| first + met.primitive);
-        let point = self.point(&met, ray, hit);
+        let met = Met::new(self, hit, ray.time);
+        let light = met.object.first_light.map(|first| first.saturating_add(met.primitive));
+        let point = met.point(ray, hit);
         let dress = if met.object.is_dressed {
             self.dress(point, &met, ray, hit)
         } else {
@@ -214,15 +242,11 @@ impl Scene {
         SurfaceInteraction::new(point, ray.d, &dress, light, hit.slot(), met)
     }
 
+    /// Index of the object that was hit. What moves is an object of its own tree.
     #[inline(always)]
-    fn point(&self, met: &Met<'_>, ray: &Ray, hit: &Hit) -> SurfacePoint {
-        match &met.object.plane {
-            Some(plane) => plane.point(met.uv),
-            None => {
-                let surface = self.bvh.surface(hit, ray.time);
-                SurfacePoint::new(&surface, ray, hit, met.object.smooth.as_ref(), met.primitive)
-            }
-        }
+    fn object_of(&self, hit: &Hit) -> u32 {
+        let [instance, ..] = hit.instances;
+        self.object_of[if instance == Hit::NO_INSTANCE { hit.prim } else { instance } as usize]
     }
 
     /// The material that a shape names.
@@ -235,12 +259,10 @@ impl Scene {
     pub(crate) fn look(&self, ray: &Ray) -> Option<Look<'_>> {
         let (last, hit) = self.meet(ray)?;
         let si = self.interaction(&last, &hit);
-        let object = self.object_of[hit.prim as usize];
-        // One more than the index; none wraps around to 0.
-        let [object, material, instance] =
-            [object, self.objects[object as usize].material, hit.instances[0]].map(|index| index.wrapping_add(1));
+        let object = self.object_of(&hit);
+        let [object, material] = [object, self.objects[object as usize].material].map(|index| index + 1);
         let t = last.o.distance(ray.o) + hit.t;
-        Some(Look { si, t, uv: si.uv(), ids: Ids { object, material, instance } })
+        Some(Look { si, t, uv: si.uv(), ids: Ids { object, material, instance: 0 } })
     }
 
     /// Whether anything is in the way of the ray before its `t_max`.
@@ -284,12 +306,12 @@ impl Scene {
 
     /// The camera for a picture of this size.
     pub fn camera(&self, width: u32, height: u32) -> Camera {
-        Camera::new(&self.camera, width, height)
+        Camera::exposed(&self.camera, width, height, self.shutter, self.moves)
     }
 
     /// The number of primitives.
     pub fn primitive_count(&self) -> usize {
-        self.object_of.len()
+        self.primitive_count
     }
 }
 
@@ -318,6 +340,7 @@ fn filling(materials: &[MaterialDesc], index: u32) -> Option<Filling> {
     let mut parts = material.clone();
     match material {
         MaterialDesc::Dielectric(glass) => Some(glass.filling()),
+        MaterialDesc::Principled(layers) => layers.filling(),
         _ => parts.parts().into_iter().find_map(|(_, name)| filling(materials, name?.index())),
     }
 }

@@ -20,8 +20,9 @@ use glam::{DVec3, Vec2, Vec3};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
-use crate::array::arrays;
+use crate::array::{arrays, optional_array};
 use crate::color::Rgb;
+use crate::motion::{MotionDesc, MotionKey};
 use crate::shape::{ShapeDesc, Smooth};
 use crate::validate::Checker;
 
@@ -50,6 +51,12 @@ pub struct MeshDesc {
     pub colors: Vec<[f32; 3]>,
     /// Name of a material; grey matte if absent.
     pub material: Option<String>,
+    /// Where it is at some times; it rests if absent.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    pub motion: Vec<MotionKey>,
+    /// About what its `motion` turns it, and from where it grows, metres, where it is without motion; [0, 0, 0] if absent.
+    #[serde(deserialize_with = "optional_array", skip_serializing_if = "Option::is_none")]
+    pub pivot: Option<[f32; 3]>,
     /// What is in the file, once a reader has loaded it.
     #[serde(skip)]
     pub data: Option<Arc<MeshData>>,
@@ -236,6 +243,10 @@ impl ShapeDesc for MeshDesc {
 
     fn material(&self) -> Option<&str> {
         self.material.as_deref()
+    }
+
+    fn motion(&self) -> MotionDesc<'_> {
+        MotionDesc { keys: &self.motion, pivot: self.pivot }
     }
 
     fn smooth(&self) -> Option<Smooth> {

@@ -3,6 +3,7 @@
 //! Each file holds a shape as a scene states it, the primitives that rays meet, and the point and normal of a hit.
 
 mod mesh;
+mod moving;
 mod plane;
 mod point;
 mod quad;
@@ -14,6 +15,7 @@ use glam::{Vec2, Vec3};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
+use crate::motion::MotionDesc;
 use crate::validate::Checker;
 
 pub(crate) use mesh::VertexData;
@@ -69,6 +71,9 @@ pub(crate) trait ShapeDesc {
     /// The name of its material.
     fn material(&self) -> Option<&str>;
 
+    /// How it moves.
+    fn motion(&self) -> MotionDesc<'_>;
+
     /// Normals that make it look round.
     fn smooth(&self) -> Option<Smooth> {
         None
@@ -79,7 +84,7 @@ pub(crate) trait ShapeDesc {
         None
     }
 
-    /// Where its own coordinates begin, in the world.
+    /// Where its own coordinates begin, in the world, and what it turns about if it says no pivot.
     fn origin(&self) -> Vec3 {
         Vec3::ZERO
     }

@@ -30,6 +30,11 @@ impl Plane {
         Self { corner, edges, n: (normal * area_inv).as_vec3(), reach, margin: margin.min(1e-4) }
     }
 
+    /// The same, whose points are computed from lengths up to `reach`.
+    pub(super) fn within(self, reach: f64) -> Self {
+        Self { reach: self.reach.max(reach), ..self }
+    }
+
     /// A point of a triangle or quad.
     #[inline]
     pub(crate) fn point(&self, uv: Vec2) -> SurfacePoint {

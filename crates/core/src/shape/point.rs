@@ -36,8 +36,13 @@ impl SurfacePoint {
     /// From a sphere and the direction of a point of it from its centre.
     #[inline]
     pub(crate) fn on_sphere(center: DVec3, radius: f64, n: DVec3) -> Self {
-        let point = Self::rounded(center + n * radius, center.abs().max_element() + radius, n.as_vec3());
-        Self { is_round: true, ..point }
+        Self::rounded(center + n * radius, center.abs().max_element() + radius, n.as_vec3()).round()
+    }
+
+    /// The same, of a shape that rays meet again when they go into it.
+    #[inline]
+    pub(super) fn round(self) -> Self {
+        Self { is_round: true, ..self }
     }
 
     /// The same with another shading normal, and with rays on the viewer's side that start at `p + lift`.

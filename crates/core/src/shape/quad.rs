@@ -13,12 +13,13 @@ use glam::Vec3;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
-use crate::array::array;
+use crate::array::{array, optional_array};
+use crate::motion::{MotionDesc, MotionKey};
 use crate::shape::{Plane, ShapeDesc};
 use crate::validate::Checker;
 
 /// A parallelogram: a corner and two edges. Its normal is u × v.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct QuadDesc {
     /// A corner, metres.
@@ -33,6 +34,12 @@ pub struct QuadDesc {
     /// Name of a material; grey matte if absent.
     #[serde(default)]
     pub material: Option<String>,
+    /// Where it is at some times; it rests if absent.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub motion: Vec<MotionKey>,
+    /// About what its `motion` turns it, and from where it grows, metres, where it is without motion; its corner if absent.
+    #[serde(default, deserialize_with = "optional_array", skip_serializing_if = "Option::is_none")]
+    pub pivot: Option<[f32; 3]>,
 }
 
 impl ShapeDesc for QuadDesc {
@@ -62,5 +69,9 @@ impl ShapeDesc for QuadDesc {
 
     fn material(&self) -> Option<&str> {
         self.material.as_deref()
+    }
+
+    fn motion(&self) -> MotionDesc<'_> {
+        MotionDesc { keys: &self.motion, pivot: self.pivot }
     }
 }

@@ -14,12 +14,13 @@ use glam::{Vec2, Vec3, Vec3Swizzles};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
-use crate::array::array;
+use crate::array::{array, optional_array};
+use crate::motion::{MotionDesc, MotionKey};
 use crate::shape::{ShapeDesc, SurfacePoint};
 use crate::validate::Checker;
 
 /// A sphere; its normal points outwards.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct SphereDesc {
     /// Centre, metres.
@@ -30,6 +31,12 @@ pub struct SphereDesc {
     /// Name of a material; grey matte if absent.
     #[serde(default)]
     pub material: Option<String>,
+    /// Where it is at some times; it rests if absent.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub motion: Vec<MotionKey>,
+    /// About what its `motion` turns it, and from where it grows, metres, where it is without motion; its centre if absent.
+    #[serde(default, deserialize_with = "optional_array", skip_serializing_if = "Option::is_none")]
+    pub pivot: Option<[f32; 3]>,
 }
 
 impl ShapeDesc for SphereDesc {
@@ -48,6 +55,10 @@ impl ShapeDesc for SphereDesc {
 
     fn material(&self) -> Option<&str> {
         self.material.as_deref()
+    }
+
+    fn motion(&self) -> MotionDesc<'_> {
+        MotionDesc { keys: &self.motion, pivot: self.pivot }
     }
 }
 

@@ -105,7 +105,7 @@ impl ImageTexture {
     /// Along each axis that the surface faces at all.
     fn three(&self, at: &TexturePoint) -> Spectrum {
         let p = self.mapping.origin(at, Space::World);
-        let n = at.n;
+        let n = if self.mapping.space == Some(Space::Object) { at.n_object } else { at.n };
         let weights = (n * n) * (n * n);
         let total = weights.element_sum().max(f32::MIN_POSITIVE);
         // Seen from where the surface faces, x goes to the right, and y upwards or, on floors and ceilings, to the back.

@@ -94,10 +94,12 @@ pub struct TexturePoint {
     pub uv: Vec2,
     /// Place in the world, metres.
     pub p: Vec3,
-    /// Place from the shape's own origin, metres.
+    /// Place from the shape's own origin, metres; where the shape is without motion.
     pub p_object: Vec3,
     /// Unit shading normal.
     pub n: Vec3,
+    /// The same on the shape, where that is without motion.
+    pub n_object: Vec3,
     /// What the vertices of a mesh say.
     pub vertex_color: Option<Rgb>,
 }
@@ -133,9 +135,10 @@ pub struct TexturesAt<'t> {
 }
 
 impl TexturesAt<'_> {
-    /// The same at a point that is a little off, by so many metres and coordinates.
-    pub(crate) fn moved(&self, by: Vec3, uv: Vec2) -> Self {
-        let at = TexturePoint { uv: self.at.uv + uv, p: self.at.p + by, p_object: self.at.p_object + by, ..self.at };
+    /// The same at a point that is a little off, by so many metres in the world and on the shape, and coordinates.
+    pub(crate) fn moved(&self, by: Vec3, by_object: Vec3, uv: Vec2) -> Self {
+        let [p, p_object] = [self.at.p + by, self.at.p_object + by_object];
+        let at = TexturePoint { uv: self.at.uv + uv, p, p_object, ..self.at };
         Self { at, ..*self }
     }
 }

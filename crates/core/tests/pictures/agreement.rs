@@ -22,7 +22,7 @@ use eyebeam_core::texture::{Checker, Color, Mapping, Noise, Scalar, Space, Textu
 use crate::setup::*;
 
 fn quad(corner: [f32; 3], u: [f32; 3], v: [f32; 3], material: &str) -> QuadDesc {
-    QuadDesc { corner, u, v, material: Some(material.to_owned()) }
+    QuadDesc { corner, u, v, material: Some(material.to_owned()), ..QuadDesc::default() }
 }
 
 fn with(desc: &mut SceneDesc, name: &str, material: MaterialDesc) {

@@ -41,7 +41,7 @@ fn pixels_are_where_they_should_be() {
     let halves = [[[10.0, 0.0, 0.0], [0.0, 20.0, 0.0]], [[20.0, 0.0, 0.0], [0.0, 10.0, 0.0]]];
     for (axis, corner) in [(0, [0.0, -10.0, 0.0]), (1, [-10.0, 0.0, 0.0])] {
         let [u, v] = halves[axis];
-        desc.shape.quad = vec![QuadDesc { corner, u, v, material: Some("it".to_owned()) }];
+        desc.shape.quad = vec![QuadDesc { corner, u, v, material: Some("it".to_owned()), ..QuadDesc::default() }];
         let image = render(&desc, settings(5, SPP, 1)).develop();
         // The lamp is on the right, and then above.
         let expected = |x: u32, y: u32| [0.0, 0.0, 0.5, 1.0, 1.0][[x, 4 - y][axis] as usize];

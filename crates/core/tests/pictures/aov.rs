@@ -92,7 +92,7 @@ fn edges() {
     desc.shape.sphere.clear();
     // The edge at x = 0 goes through the middle of column 16.
     let (corner, u, v) = ([0.0, -9.0, 0.0], [9.0, 0.0, 0.0], [0.0, 18.0, 0.0]);
-    desc.shape.quad.push(QuadDesc { corner, u, v, material: Some("it".to_owned()) });
+    desc.shape.quad.push(QuadDesc { corner, u, v, material: Some("it".to_owned()), ..QuadDesc::default() });
     let hits = hits(&desc, settings_of(64), false);
     let hit = pixel(&hits, 16, 5);
     assert!((hit.albedo[0] - 0.3).abs() < 0.1 && (hit.n.z - 0.5).abs() < 0.15, "{hit:?}");
@@ -111,7 +111,7 @@ fn places_on_flat_shapes() {
     let mut desc = ball();
     desc.shape.sphere.clear();
     let (corner, u, v) = ([-1.0, -1.0, 0.0], [2.0, 0.0, 0.0], [1.0, 2.0, 0.0]);
-    desc.shape.quad.push(QuadDesc { corner, u, v, material: None });
+    desc.shape.quad.push(QuadDesc { corner, u, v, material: None, ..QuadDesc::default() });
     let vertices = vec![[-2.0, 1.5, 1.0], [2.0, 1.5, 1.0], [-2.0, 2.0, 1.0]];
     let triangles = vec![[0, 1, 2]];
     desc.shape.mesh.push(MeshDesc { vertices, triangles, normals: vec![[0.0, 0.75, 1.0]; 3], ..MeshDesc::default() });
@@ -141,7 +141,7 @@ fn through_glass_and_mirrors() {
     let mirror = Metal { albedo: Rgb([0.9, 0.5, 0.1]).into(), roughness: 0.0.into() };
     desc.material.insert("mirror".to_owned(), MaterialDesc::Metal(mirror));
     let (corner, u, v) = ([-9.0, -9.0, 3.0], [18.0, 0.0, 0.0], [0.0, 18.0, 0.0]);
-    desc.shape.quad.push(QuadDesc { corner, u, v, material: Some("pane".to_owned()) });
+    desc.shape.quad.push(QuadDesc { corner, u, v, material: Some("pane".to_owned()), ..QuadDesc::default() });
     let without = hits(&desc, settings_of(16), false);
     let with = hits(&desc, settings_of(16), true);
     assert_eq!(pixel(&without, 16, 16).albedo, [1.0; 3]);
@@ -156,10 +156,11 @@ fn through_glass_and_mirrors() {
         u: [4.0, 0.0, 4.0],
         v: [0.0, 18.0, 0.0],
         material: Some("mirror".to_owned()),
+        ..QuadDesc::default()
     };
     desc.shape.sphere.clear();
     let (corner, u, v) = ([-6.0, -9.0, -9.0], [0.0, 18.0, 0.0], [0.0, 0.0, 18.0]);
-    desc.shape.quad.push(QuadDesc { corner, u, v, material: Some("it".to_owned()) });
+    desc.shape.quad.push(QuadDesc { corner, u, v, material: Some("it".to_owned()), ..QuadDesc::default() });
     let shown = pixel(&hits(&desc, settings_of(16), true), 16, 16);
     for (albedo, expected) in shown.albedo.into_iter().zip([0.54, 0.3, 0.06]) {
         assert!((albedo - expected).abs() < 1e-6, "{:?}", shown.albedo);
@@ -205,7 +206,7 @@ fn transparent(settings: Settings) -> Settings {
 fn alpha_is_coverage() {
     let mut desc = ball();
     let (corner, u, v) = ([1.5, -9.0, 0.0], [9.0, 0.0, 0.0], [0.0, 18.0, 0.0]);
-    desc.shape.quad.push(QuadDesc { corner, u, v, material: Some("it".to_owned()) });
+    desc.shape.quad.push(QuadDesc { corner, u, v, material: Some("it".to_owned()), ..QuadDesc::default() });
     render_every_way(&desc, &transparent(settings_of(400)), |way, film| {
         let image = film.develop();
         let alpha = |x: u32, y: u32| image.alpha().unwrap()[(y * SIDE + x) as usize];

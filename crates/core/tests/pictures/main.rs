@@ -8,6 +8,7 @@ mod determinism;
 mod error;
 mod furnace;
 mod lamps;
+mod motion;
 mod offset;
 mod setup;
 mod textures;

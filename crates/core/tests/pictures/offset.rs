@@ -53,7 +53,7 @@ fn quads_do_not_shade_themselves() {
                 let (u, v) = (along.map(|x| 2.0 * x), [0.0, 0.0, -2.0 * size]);
                 let eye = [off + 0.1 * nx * size, 0.1 * ny * size, 0.3 * size];
                 let mut desc = scene(WHITE, matte(1.0), look(eye, [off, 0.0, 0.0], 40.0));
-                desc.shape.quad.push(QuadDesc { corner, u, v, material: Some("it".to_owned()) });
+                desc.shape.quad.push(QuadDesc { corner, u, v, material: Some("it".to_owned()), ..QuadDesc::default() });
                 let name = format!("size {size}, normal {nx}, {ny}, beside {off}");
                 assert_everywhere(&render(&desc, settings(32, SPP, 2)), 1.0, 0.0, &name);
             }

@@ -65,13 +65,13 @@ pub(crate) fn scene(environment: EnvironmentDesc, it: MaterialDesc, camera: Came
 }
 
 pub(crate) fn sphere(center: [f32; 3], radius: f32) -> SphereDesc {
-    SphereDesc { center, radius, material: Some("it".to_owned()) }
+    SphereDesc { center, radius, material: Some("it".to_owned()), ..SphereDesc::default() }
 }
 
 /// A horizontal square whose normal is up.
 pub(crate) fn floor(y: f32, half: f32) -> QuadDesc {
     let (u, v) = ([2.0 * half, 0.0, 0.0], [0.0, 0.0, -2.0 * half]);
-    QuadDesc { corner: [-half, y, half], u, v, material: Some("it".to_owned()) }
+    QuadDesc { corner: [-half, y, half], u, v, material: Some("it".to_owned()), ..QuadDesc::default() }
 }
 
 /// The box from `lo` to `hi` as six quads.
@@ -79,7 +79,13 @@ pub(crate) fn box_quads(lo: [f32; 3], hi: [f32; 3]) -> Vec<QuadDesc> {
     let edge = |axis: usize| std::array::from_fn(|i| if i == axis { hi[i] - lo[i] } else { 0.0 });
     let side = |axis: usize, corner: [f32; 3]| {
         let corner = std::array::from_fn(|i| if i == axis { corner[i] } else { lo[i] });
-        QuadDesc { corner, u: edge((axis + 1) % 3), v: edge((axis + 2) % 3), material: Some("it".to_owned()) }
+        QuadDesc {
+            corner,
+            u: edge((axis + 1) % 3),
+            v: edge((axis + 2) % 3),
+            material: Some("it".to_owned()),
+            ..QuadDesc::default()
+        }
     };
     (0..3).flat_map(|axis| [side(axis, lo), side(axis, hi)]).collect()
 }

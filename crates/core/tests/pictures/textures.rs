@@ -57,9 +57,9 @@ fn a_texture_on_an_object_moves_with_it() {
     for at in [0.0, 3.0] {
         let fill = |desc: &mut SceneDesc| {
             let corner = [at, 0.0, 1.0];
-            let quad = QuadDesc { corner, u: [2.0, 0.0, 0.0], v: [0.0, 0.0, -2.0], material: None };
+            let quad = QuadDesc { corner, u: [2.0, 0.0, 0.0], v: [0.0, 0.0, -2.0], ..QuadDesc::default() };
             desc.shape.quad.push(quad);
-            desc.shape.sphere.push(SphereDesc { center: [at + 10.0, 0.0, 0.0], radius: 1.0, material: None });
+            desc.shape.sphere.push(SphereDesc { center: [at + 10.0, 0.0, 0.0], radius: 1.0, ..SphereDesc::default() });
         };
         let (object, world) = (scene(along(Space::Object), fill), scene(along(Space::World), fill));
         for x in [0.25, 0.75] {

@@ -98,6 +98,42 @@ fn things_that_do_not_go_together() {
 }
 
 #[test]
+fn motion() {
+    let ball = |rest: &str| format!("[[shape.sphere]]\nradius = 1\n{rest}");
+    let turns = "{ axis = [0, 1, 0], angle = ";
+    let shapes = [
+        "motion = [{ time = 1 }, { time = ▸0 }]",
+        "motion = [{ time = 0 }, { time = 1 }, { time = ▸1 }]",
+        "motion = [{ time = ▸nan }]",
+        "motion = [{ time = 0, offset = ▸[0, inf, 0] }]",
+        "motion = [{ time = 0, scale = ▸0 }]",
+        "motion = [{ time = 0, scale = ▸-1 }]",
+        "motion = [{ time = 0, rotation = { axis = ▸[0, 0, 0], angle = 3 } }]",
+        "motion = [{ time = 0, rotation = { axis = [0, 0, 1], angle = ▸1e7 } }]",
+        "motion = [{ time = 0, rotation = ▸{ axis = [0, 0, 1], ▸angel = 3 } }]",
+        "motion = [▸{ offset = [0, 0, 0] }]",
+        "motion = ▸{ time = 0 }",
+        "pivot = ▸[0, 0, 0]",
+        "pivot = ▸[0, nan, 0]\nmotion = [{ time = 0 }]",
+        &format!("motion = ▸[{{ time = 0, rotation = {turns}0 }} }}, {{ time = 1, rotation = {turns}1e6 }} }}]"),
+    ]
+    .map(ball);
+    let others = [
+        "[render]\nshutter = ▸[1, 0.5]",
+        "[render]\nshutter = ▸[-1, 0.5]",
+        "[render]\nshutter = ▸[0, nan]",
+        "[render]\nshutter = ▸0.5",
+        "[[camera.motion]]\ntime = 1\n[[camera.motion]]\ntime = ▸0.5",
+        "[[camera.motion]]\ntime = 1\nlook_from = ▸[0, nan, 0]",
+        "[camera]\nlook_at = [1, 2, 3]\n▸[[camera.motion]]\ntime = 1\nlook_from = [1, 2, 3]",
+        "[[camera.motion]]\ntime = 0\nup = ▸[0, 0, 0]",
+        "[[camera.motion]]\ntime = 0\n[[camera.motion]]\ntime = ▸1\nlook_at = [0, 2, 12]",
+    ];
+    let all: Vec<_> = shapes.iter().map(String::as_str).chain(others).collect();
+    insta::assert_snapshot!(report(&all));
+}
+
+#[test]
 fn materials_of_others() {
     let said = report(&[
         "▸[material.a.mix]\na = \"b\"\nb = \"default\"\n▸[material.b.bump]\nof = \"a\"\nheight = 1",

@@ -25,6 +25,7 @@ albedo = [0.9, 0.7, 0.3]
 center = [-1.1, 0.5, 0]
 radius = 0.5
 material = "é 1"
+motion = [{ time = 0 }, { time = 1, offset = [1, 0, 0], rotation = { axis = [0, 1, 0], angle = 90 }, scale = 2 }]
 [[shape.mesh]]
 vertices = [[0, 0, 0], [1, 0, 0], [0, 1, 0]]
 triangles = [[0, 1, 2]]
@@ -53,6 +54,19 @@ fn truncated() {
     for end in (0..SCENE.len()).filter(|&i| SCENE.is_char_boundary(i)) {
         try_scene(&SCENE[..end]);
     }
+}
+
+/// As many keys as one likes, if the shutter is not open for too many.
+#[test]
+fn thousands_of_keys() {
+    let scene = |keys: u32| {
+        let keys: Vec<_> = (0..keys).map(|i| format!("{{ time = {i}, offset = [0, {}, 0] }}", i % 2)).collect();
+        format!("[render]\nshutter = [0, 1e9]\n[[shape.sphere]]\nradius = 1\nmotion = [{}]", keys.join(","))
+    };
+    read_str("a.toml", &scene(10_000), &[]).unwrap();
+    let error = read_str("a.toml", &scene(10_002), &[]).unwrap_err().to_string();
+    assert!(error.contains("10001 straight pieces") && error.contains("a.toml:5"), "{error}");
+    read_str("a.toml", &scene(30_000).replace("1e9", "100"), &[]).unwrap();
 }
 
 proptest! {

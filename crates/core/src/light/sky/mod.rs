@@ -22,9 +22,9 @@ mod time;
 
 use glam::{DVec3, Vec3};
 use schemars::JsonSchema;
-use serde::{Deserialize, Deserializer, Serialize};
+use serde::{Deserialize, Serialize};
 
-use crate::array::array;
+use crate::array::optional_array;
 use crate::validate::Checker;
 
 pub use bake::{Sky, SunDisk};
@@ -35,7 +35,7 @@ pub use bake::{Sky, SunDisk};
 #[serde(deny_unknown_fields, default)]
 pub struct SkyDesc {
     /// Towards the sun, of any length; +Y is up.
-    #[serde(deserialize_with = "direction", skip_serializing_if = "Option::is_none")]
+    #[serde(deserialize_with = "optional_array", skip_serializing_if = "Option::is_none")]
     pub sun_direction: Option<[f32; 3]>,
     /// Angle of the sun above the horizon, degrees, -90..90; 45 if absent.
     #[schemars(range(min = -90.0, max = 90.0))]
@@ -72,10 +72,6 @@ pub struct SkyDesc {
     /// Angle that the sun fills, degrees, 0.05..90. A larger sun has softer shadows and is as much less bright.
     #[schemars(range(min = 0.05, max = 90.0))]
     pub sun_size: f32,
-}
-
-fn direction<'de, D: Deserializer<'de>>(deserializer: D) -> Result<Option<[f32; 3]>, D::Error> {
-    array(deserializer).map(Some)
 }
 
 impl Default for SkyDesc {

@@ -31,6 +31,8 @@ pub struct PrincipledBsdf {
     pub(super) ggx: Ggx,
     /// By which they reflect if they are not metal, at least 1.
     pub(super) eta: f32,
+    /// In which direction highlights are long.
+    pub(super) x: Vec2,
     /// By which light that goes through is bent; 1 of what has no inside.
     pub(super) eta_through: f32,
     /// Whether there is no inside.
@@ -125,8 +127,18 @@ impl PrincipledBsdf {
         smooth_coat && smooth_base && self.matte.0 == [0.0; 3] && self.fuzz_weight == 0.0
     }
 
+    /// Into the frame whose x axis is that of long highlights.
+    fn turn(&self, w: Vec3) -> Vec3 {
+        Vec2::new(self.x.x, -self.x.y).rotate(w.truncate()).extend(w.z)
+    }
+
     #[inline(never)]
     pub(crate) fn sample(&self, wo: Vec3, uc: f32, u: Vec2) -> Option<BsdfSample> {
+        let sample = self.sample_turned(self.turn(wo), uc, u)?;
+        Some(BsdfSample { wi: self.x.rotate(sample.wi.truncate()).extend(sample.wi.z), ..sample })
+    }
+
+    fn sample_turned(&self, wo: Vec3, uc: f32, u: Vec2) -> Option<BsdfSample> {
         let side = 1.0_f32.copysign(wo.z);
         let up = upright(wo, side);
         let view = self.view(up, side < 0.0 && !self.is_thin);
@@ -163,7 +175,7 @@ impl PrincipledBsdf {
 
     #[inline(never)]
     pub(crate) fn eval_pdf(&self, wo: Vec3, wi: Vec3) -> (Spectrum, f32) {
-        let side = 1.0_f32.copysign(wo.z);
+        let (wo, wi, side) = (self.turn(wo), self.turn(wi), 1.0_f32.copysign(wo.z));
         self.eval_pdf_from(&self.view(upright(wo, side), side < 0.0 && !self.is_thin), upright(wi, side))
     }
 

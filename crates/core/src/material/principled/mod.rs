@@ -24,8 +24,9 @@
 //!
 //! A sheet (`geometry_thin_walled`) reflects at both of its boundaries, and rough ones scatter what goes through as what is reflected.
 //!
-//! Andersson et al. 2024, "OpenPBR Surface specification", Academy Software Foundation. What it has below the surface is told at the surface: `subsurface_weight` mixes the matte base
-//! with `subsurface_color`, and `transmission_color` is what is left of the light each time that it goes through.
+//! Andersson et al. 2024, "OpenPBR Surface specification", Academy Software Foundation. What scatters below the surface is told at the
+//! surface: `subsurface_weight` mixes the matte base with `subsurface_color`. What is clear is filled and absorbs light if there is
+//! a `transmission_depth` (see [`medium`](crate::medium)).
 //!
 //! Directions come from one layer, chosen by about its share of the light, and are weighed by all of them.
 //!
@@ -53,6 +54,7 @@ use crate::color::{LUMENS_PER_WATT, Rgb, Spectrum};
 use crate::material::microfacet::Ggx;
 use crate::material::reflected::Boundary;
 use crate::material::{Emission, ThinFilm};
+use crate::medium::Filling;
 use crate::names::Named;
 use crate::texture::{Color, Scalar, Textures};
 use crate::validate::Checker;
@@ -92,9 +94,10 @@ pub struct Principled {
     /// How much of what is not metal is clear, 0..1.
     #[schemars(range(min = 0.0, max = 1.0))]
     pub transmission_weight: Scalar,
-    /// Left of the light each time that it goes through the surface, 0..1 in each channel.
+    /// The colour of white light after `transmission_depth` inside, 0..1 in each channel; if that is 0, the surface is a sheet or
+    /// the colour is a texture, what is left each time that it goes through the surface.
     pub transmission_color: Color,
-    /// Metres, not negative, in which light that goes through would get its color. It gets it at the surface, whatever this says.
+    /// Metres, not negative, in which light that goes through gets its colour.
     #[schemars(range(min = 0.0))]
     pub transmission_depth: f32,
     /// How much of the matte base is of `subsurface_color`, 0..1.
@@ -246,6 +249,18 @@ impl Principled {
         (scale > 0.0).then_some(Emission { color: &self.emission_color, scale, two_sided: false })
     }
 
+    /// Whether `transmission_color` is that of what is inside.
+    fn is_filled(&self) -> bool {
+        self.transmission_depth > 0.0 && self.transmission_color.rgb().is_some() && !self.geometry_thin_walled
+    }
+
+    /// What is inside, if it is clear.
+    pub(crate) fn filling(&self) -> Option<Filling> {
+        let clear = self.transmission_weight.number() != Some(0.0) && !self.geometry_thin_walled;
+        let color = self.transmission_color.rgb().filter(|_| self.is_filled()).unwrap_or(Rgb::grey(1.0));
+        clear.then(|| Filling::of_color(color, self.transmission_depth, self.specular_ior, 0))
+    }
+
     #[inline(never)]
     pub(crate) fn bsdf(&self, textures: &impl Textures) -> PrincipledBsdf {
         let color = |color: &Color| color.share_at(textures);
@@ -276,9 +291,10 @@ impl Principled {
             clear,
             ggx: facets(coat.roughen(roughness), number(&self.specular_roughness_anisotropy)),
             eta: coat.eta_below(self.specular_ior, specular),
+            x: textures.u_axis(),
             eta_through: if self.geometry_thin_walled { 1.0 } else { self.specular_ior },
             is_thin: self.geometry_thin_walled,
-            transmission: Rgb(color(&self.transmission_color).to_rgb()),
+            transmission: if self.is_filled() { Rgb::grey(1.0) } else { Rgb(color(&self.transmission_color).to_rgb()) },
             coat: coat.boundary,
             coat_weight,
             coat_tint: Rgb(Spectrum::ONE.lerp(tint, coat_weight).to_rgb()),

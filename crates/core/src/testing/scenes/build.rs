@@ -55,12 +55,12 @@ pub(super) fn floor(y: f32) -> [[f32; 3]; 3] {
 
 pub(super) fn add_quad(desc: &mut SceneDesc, [corner, u, v]: [[f32; 3]; 3], name: &str, material: MaterialDesc) {
     desc.material.insert(name.to_owned(), material);
-    desc.shape.quad.push(QuadDesc { corner, u, v, material: Some(name.to_owned()) });
+    desc.shape.quad.push(QuadDesc { corner, u, v, material: Some(name.to_owned()), ..QuadDesc::default() });
 }
 
 pub(super) fn add_sphere(desc: &mut SceneDesc, center: [f32; 3], radius: f32, name: &str, material: MaterialDesc) {
     desc.material.insert(name.to_owned(), material);
-    desc.shape.sphere.push(SphereDesc { center, radius, material: Some(name.to_owned()) });
+    desc.shape.sphere.push(SphereDesc { center, radius, material: Some(name.to_owned()), ..SphereDesc::default() });
 }
 
 /// Matte, of a grey albedo.

@@ -7,6 +7,7 @@ mod facing;
 mod far;
 mod glass;
 mod lamps;
+mod moving;
 mod room;
 mod sky;
 mod thin;
@@ -45,7 +46,8 @@ pub fn all() -> Vec<KnownScene> {
     /// Some of the numbers take a while to compute: once is enough.
     static ALL: OnceLock<Vec<KnownScene>> = OnceLock::new();
     let build = || {
-        let surfaces = [room::scenes(), glass::scenes(), thin::scenes(), facets::scenes(), worn::scenes()];
+        let surfaces =
+            [room::scenes(), glass::scenes(), thin::scenes(), facets::scenes(), worn::scenes(), moving::scenes()];
         let lights = [lamps::scenes(), facing::scenes(), far::scenes(), sky::scenes()];
         [surfaces.concat(), lights.concat()].concat()
     };

@@ -6,12 +6,12 @@ use super::glass::reflectance;
 use crate::color::Rgb;
 use crate::desc::SceneDesc;
 use crate::light::{DirectionalLight, EnvironmentDesc, Gradient};
-use crate::material::{Dielectric, Mask, MaterialDesc, Mix, Null};
+use crate::material::{Dielectric, Mask, MaterialDesc, Mix, Null, Principled};
 use crate::names::Name;
 
 pub(super) fn scenes() -> Vec<KnownScene> {
     let holes = [hole(), hollow(), shadow(), nothing(), half_and_half()];
-    let filled = [0.0, 45.0, 75.0].map(plate).into_iter().chain([overlap(), wet_glass()]);
+    let filled = [0.0, 45.0, 75.0].map(plate).into_iter().chain([overlap(), wet_glass(), principled()]);
     holes.into_iter().chain(filled).collect()
 }
 
@@ -65,10 +65,10 @@ fn half_and_half() -> KnownScene {
 }
 
 /// Two horizontal surfaces of a filling, from one height to a lower one.
-fn add_layer(desc: &mut SceneDesc, [top, bottom]: [f32; 2], name: &str, material: Dielectric) {
+fn add_layer(desc: &mut SceneDesc, [top, bottom]: [f32; 2], name: &str, material: MaterialDesc) {
     let [[x, y, z], u, v] = floor(bottom);
-    add_quad(desc, floor(top), name, MaterialDesc::Dielectric(material.clone()));
-    add_quad(desc, [[x, y, -z], u, v.map(|x| -x)], name, MaterialDesc::Dielectric(material));
+    add_quad(desc, floor(top), name, material.clone());
+    add_quad(desc, [[x, y, -z], u, v.map(|x| -x)], name, material);
 }
 
 /// A plate of grey glass between a sky and darker ground, all reflections within it added up.
@@ -79,7 +79,7 @@ fn plate(degrees: f64) -> KnownScene {
     let mut desc = empty(EnvironmentDesc::Gradient(sky), stare(from, [0.3, 0.0, 0.1]));
     let glass =
         Dielectric { transmittance: Some(Rgb::grey(0.5)), transmittance_distance: 0.3, ..Dielectric::default() };
-    add_layer(&mut desc, [0.0, -0.2], "glass", glass);
+    add_layer(&mut desc, [0.0, -0.2], "glass", MaterialDesc::Dielectric(glass));
     let cos_t = (1.0 - (sin / 1.5).powi(2)).sqrt();
     let (r, a) = (reflectance(cos, 1.5), 0.5_f64.powf(0.2 / 0.3 / cos_t));
     let inside = (1.0 - r).powi(2) * a / (1.0 - (r * a).powi(2));
@@ -91,22 +91,35 @@ fn plate(degrees: f64) -> KnownScene {
 /// Two fillings without surfaces of their own, one of which reaches into the other.
 fn overlap() -> KnownScene {
     let mut desc = empty(WHITE, stare([0.3, 2.0, 0.1], [0.3, 0.0, 0.1]));
-    let air = |absorption, priority| Dielectric {
-        eta: 1.0,
-        absorption: Some(Rgb::grey(absorption)),
-        priority,
-        ..Dielectric::default()
+    let air = |absorption, priority| {
+        let absorption = Some(Rgb::grey(absorption));
+        MaterialDesc::Dielectric(Dielectric { eta: 1.0, absorption, priority, ..Dielectric::default() })
     };
     add_layer(&mut desc, [0.0, -0.2], "thin", air(1.0, 1));
     add_layer(&mut desc, [-0.1, -0.3], "thick", air(3.0, 2));
     KnownScene::new("smoke within smoke", desc, 20, (-0.1 * 1.0 - 0.2 * 3.0_f64).exp())
 }
 
+/// A layer that is all clear and bends nothing, and colours light on its way.
+fn principled() -> KnownScene {
+    let mut desc = empty(WHITE, stare([0.3, 2.0, 0.1], [0.3, 0.0, 0.1]));
+    let clear = Principled {
+        transmission_weight: 1.0.into(),
+        transmission_color: Rgb::grey(0.5).into(),
+        transmission_depth: 0.3,
+        specular_ior: 1.0,
+        specular_roughness: 0.0.into(),
+        ..Principled::default()
+    };
+    add_layer(&mut desc, [0.0, -0.2], "clear", MaterialDesc::Principled(Box::new(clear)));
+    KnownScene::new("principled layer", desc, 20, 0.5_f64.powf(0.2 / 0.3))
+}
+
 /// Water on glass that reaches into it: three surfaces, the one in the middle between water and glass. Reflections at right
 /// angles, with the layers between them clear, add up as shares.
 fn wet_glass() -> KnownScene {
     let mut desc = empty(DARK, stare([0.3, 2.0, 0.1], [0.3, 0.0, 0.1]));
-    let clear = |eta, priority| Dielectric { eta, priority, ..Dielectric::default() };
+    let clear = |eta, priority| MaterialDesc::Dielectric(Dielectric { eta, priority, ..Dielectric::default() });
     // What absorbs nothing but is of a priority.
     add_layer(&mut desc, [0.0, -0.2], "water", clear(1.33, 1));
     add_layer(&mut desc, [-0.1, -0.3], "glass", clear(1.5, 2));

@@ -142,12 +142,18 @@ fn lights() -> impl Iterator<Item = (&'static str, SceneDesc, Vec<Vec3>)> {
     let sphere = |material: &str| {
         let mut desc = dark();
         let material = Some(material.to_owned());
-        desc.shape.sphere.push(SphereDesc { center: [0.0; 3], radius: 0.7, material });
+        desc.shape.sphere.push(SphereDesc { center: [0.0; 3], radius: 0.7, material, ..SphereDesc::default() });
         desc
     };
     let quad = |u, v| {
         let mut desc = dark();
-        desc.shape.quad.push(QuadDesc { corner: [-0.5, 0.0, 0.6], u, v, material: Some("lamp".to_owned()) });
+        desc.shape.quad.push(QuadDesc {
+            corner: [-0.5, 0.0, 0.6],
+            u,
+            v,
+            material: Some("lamp".to_owned()),
+            ..QuadDesc::default()
+        });
         desc
     };
     let mut triangle = dark();

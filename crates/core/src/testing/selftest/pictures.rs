@@ -64,9 +64,15 @@ fn still_life() -> SceneDesc {
         u: [16.0, 0.0, 0.0],
         v: [0.0, 0.0, -16.0],
         material: floor,
+        ..QuadDesc::default()
     });
     for (center, name) in [([-1.1, 0.5, 0.0], "metal"), ([0.1, 0.5, 0.4], "glass"), ([1.3, 0.5, 0.0], "lamp")] {
-        desc.shape.sphere.push(SphereDesc { center, radius: 0.5, material: Some(name.to_owned()) });
+        desc.shape.sphere.push(SphereDesc {
+            center,
+            radius: 0.5,
+            material: Some(name.to_owned()),
+            ..SphereDesc::default()
+        });
     }
     let irradiance = Rgb([3.0, 2.5, 2.0]);
     desc.light.directional.push(DirectionalLight { direction: [0.6, 0.7, 0.3], irradiance, angle: 25.0 });

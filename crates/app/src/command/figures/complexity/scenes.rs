@@ -25,7 +25,12 @@ pub(super) fn closed_room() -> SceneDesc {
     };
     let wall = Emissive { radiance: Rgb::grey(0.2).into(), albedo: Rgb::grey(0.8).into(), two_sided: true };
     desc.material.insert(WALL.to_owned(), MaterialDesc::Emissive(wall));
-    desc.shape.sphere.push(SphereDesc { center: [0.0; 3], radius: 1.0, material: Some(WALL.to_owned()) });
+    desc.shape.sphere.push(SphereDesc {
+        center: [0.0; 3],
+        radius: 1.0,
+        material: Some(WALL.to_owned()),
+        ..SphereDesc::default()
+    });
     desc
 }
 
@@ -41,7 +46,7 @@ pub(super) fn crowd(n: u32) -> SceneDesc {
         .map(|i| {
             let mut numbers = Independent::new(0, UVec2::ZERO, i);
             let u: Vec3 = numbers.get_2d().extend(numbers.get_1d());
-            SphereDesc { center: (HALF_SIDE * (2.0 * u - 1.0)).to_array(), radius, material: None }
+            SphereDesc { center: (HALF_SIDE * (2.0 * u - 1.0)).to_array(), radius, ..SphereDesc::default() }
         })
         .collect();
     desc

@@ -1,0 +1,54 @@
+//! The scripts beside the scenes: the gallery is rendered, meshes are what is written, and every scene is told of.
+
+use std::fs;
+use std::process::Command;
+
+use crate::{Place, Run, scenes};
+
+/// Runs a script of the folder of scenes; none without Python.
+fn script(args: &[&str]) -> Option<Run> {
+    let (name, args) = args.split_first()?;
+    let mut command = Command::new("python3");
+    command.arg(scenes().join(name)).args(args).env("PYTHONDONTWRITEBYTECODE", "1");
+    match command.output() {
+        Ok(output) => Some(Run::from(output)),
+        Err(error) => {
+            eprintln!("python3 cannot be run, so {name} is not tested: {error}");
+            None
+        }
+    }
+}
+
+#[test]
+fn meshes_are_what_the_generator_writes() {
+    if let Some(run) = script(&["generate.py", "--check"]) {
+        run.ends_with(0);
+    }
+}
+
+#[test]
+fn the_gallery_renders() {
+    let place = Place::new();
+    let folder = place.path("gallery");
+    let eyebeam = env!("CARGO_BIN_EXE_eyebeam");
+    if let Some(run) = script(&["gallery.py", "--quick", "--eyebeam", eyebeam, "--output", &folder.to_string_lossy()]) {
+        run.ends_with(0);
+        let page = fs::read_to_string(folder.join("index.md")).unwrap();
+        let pictures = page.lines().filter(|line| line.starts_with("![")).count();
+        let files =
+            fs::read_dir(&folder).unwrap().filter(|f| f.as_ref().unwrap().path().extension() == Some("jpg".as_ref()));
+        assert!(pictures > 10);
+        assert_eq!(files.count(), pictures);
+    }
+}
+
+#[test]
+fn every_scene_is_in_the_table() {
+    let table = fs::read_to_string(scenes().join("README.md")).unwrap();
+    for entry in fs::read_dir(scenes()).unwrap() {
+        let name = entry.unwrap().file_name().to_string_lossy().into_owned();
+        if name.ends_with(".toml") {
+            assert!(table.contains(&format!("[{name}]({name}) | ")), "scenes/README.md does not tell of {name}");
+        }
+    }
+}
