@@ -1,12 +1,12 @@
 #!/usr/bin/env python3
 """Renders the figures of the pages about materials and textures: a row of balls for each.
 
-    python3 docs/materials/figures.py                             # all, to docs/materials and docs/textures
-    python3 docs/materials/figures.py materials/sheen             # this one
-    python3 docs/materials/figures.py --quick                     # all, tiny and noisy, to a temporary folder that it names
+    python3 docs/materials/figures.py                     # all, to docs/materials and docs/textures
+    python3 docs/materials/figures.py materials/sheen     # this one
+    python3 docs/materials/figures.py --quick             # all, tiny and noisy, to a temporary folder that it names
 
-Python 3.11, and nothing else but the command `eyebeam` (--eyebeam PATH, or target/release/eyebeam). What is in the figures
-stands in figures_table.py and figures_textures.py, as the text of scene files.
+Python 3.11, and nothing else but the command `eyebeam` (--eyebeam PATH, or target/release/eyebeam). What is in the
+figures stands in figures_table.py and figures_textures.py, as the text of scene files.
 """
 
 from __future__ import annotations
@@ -89,9 +89,8 @@ def sheet() -> str:
             normals.append([0.0, round(math.cos(angle), 6), round(math.sin(angle), 6)])
     for k in range(0, len(vertices) - 2, 2):
         triangles += [[k, k + 1, k + 3], [k, k + 3, k + 2]]
-    return (
-        f'[[shape.mesh]]\nvertices = {vertices}\nnormals = {normals}\ntriangles = {triangles}\nmaterial = "stage-sheet"\n'
-    )
+    lists = f"vertices = {vertices}\nnormals = {normals}\ntriangles = {triangles}"
+    return f'[[shape.mesh]]\n{lists}\nmaterial = "stage-sheet"\n'
 
 
 def scene(figure: Figure) -> str:
@@ -116,9 +115,7 @@ def scene(figure: Figure) -> str:
     for i, ball in enumerate(figure.balls):
         x = round(APART * (i - 0.5 * (count - 1)), 4)
         parts.append(f"[material.ball-{i}]\n{ball}\n")
-        parts.append(
-            f'[[shape.sphere]]\ncenter = [{x}, 0.5, 0]\nradius = 0.5\nmaterial = "ball-{i}"\n'
-        )
+        parts.append(f'[[shape.sphere]]\ncenter = [{x}, 0.5, 0]\nradius = 0.5\nmaterial = "ball-{i}"\n')
     return "\n".join(parts)
 
 
@@ -134,7 +131,7 @@ def render(figure: Figure, eyebeam: str, folder: Path, options: argparse.Namespa
     count = figure.places or len(figure.balls)
     width, height = round(120 * count * figure.scale), round(180 * figure.scale)
     if options.quick:
-        width, height = width // 12, height // 12
+        width, height = width // 20, height // 20
     spp = 2 if options.quick else options.spp or figure.spp
     with tempfile.TemporaryDirectory() as scratch:
         for name, write in PICTURES.items():

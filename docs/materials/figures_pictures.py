@@ -1,4 +1,4 @@
-"""The pictures that lie on balls in the figures, written as PNG files: a card that shows where u and v run, and normals."""
+"""The pictures that lie on balls in the figures, as PNG files: a card that shows where u and v run, and normals."""
 
 from __future__ import annotations
 

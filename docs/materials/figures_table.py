@@ -76,14 +76,23 @@ MATTE = [
         "materials/diffuse-transmission",
         each(
             "diffuse-transmission = { reflectance = [0.3, 0.28, 0.24], transmittance = $ }",
-            (0, "[0.14, 0.11, 0.06]", "[0.28, 0.22, 0.12]", "[0.42, 0.33, 0.18]", "[0.56, 0.44, 0.24]", "[0.7, 0.55, 0.3]"),
+            (
+                0,
+                "[0.14, 0.11, 0.06]",
+                "[0.28, 0.22, 0.12]",
+                "[0.42, 0.33, 0.18]",
+                "[0.56, 0.44, 0.24]",
+                "[0.7, 0.55, 0.3]",
+            ),
         ),
         more=FILAMENTS,
         light=0.5,
     ),
     Figure(
         "materials/sheen",
-        each("sheen = { color = [0.9, 0.45, 0.5], roughness = $, albedo = [0.12, 0.01, 0.03] }", (0.3, 0.45, 0.6, 0.8, 1))
+        each(
+            "sheen = { color = [0.9, 0.45, 0.5], roughness = $, albedo = [0.12, 0.01, 0.03] }", (0.3, 0.45, 0.6, 0.8, 1)
+        )
         + ["sheen = { color = 0, albedo = [0.12, 0.01, 0.03] }"],
     ),
 ]
@@ -117,7 +126,9 @@ METALS = [
 
 CLEAR = [
     Figure("materials/dielectric", each("dielectric = { eta = 1.5, roughness = $ }", SIX), strip=True, spp=224),
-    Figure("materials/dielectric-eta", each("dielectric.eta = $", (1.05, 1.2, 1.33, 1.5, 1.8, 2.42)), strip=True, spp=160),
+    Figure(
+        "materials/dielectric-eta", each("dielectric.eta = $", (1.05, 1.2, 1.33, 1.5, 1.8, 2.42)), strip=True, spp=160
+    ),
     Figure(
         "materials/thin-dielectric",
         each("thin-dielectric.eta = $", (1.1, 1.33, 1.5, 2.42))
@@ -145,7 +156,9 @@ CLEAR = [
 
 LAYERS = [
     Figure("materials/plastic", each("plastic = { albedo = [0.6, 0.03, 0.02], roughness = $ }", SIX)),
-    Figure("materials/plastic-eta", each("plastic = { albedo = [0.05, 0.25, 0.3], eta = $ }", (1, 1.2, 1.35, 1.5, 2, 3))),
+    Figure(
+        "materials/plastic-eta", each("plastic = { albedo = [0.05, 0.25, 0.3], eta = $ }", (1, 1.2, 1.35, 1.5, 2, 3))
+    ),
     Figure(
         "materials/principled-base",
         each("principled = { base_color = [0.85, 0.5, 0.2], base_metalness = $ }", SIX),
@@ -157,8 +170,8 @@ LAYERS = [
     Figure(
         "materials/principled-transmission",
         each(
-            "principled = { base_color = [0.2, 0.5, 0.3], transmission_color = [0.75, 0.95, 0.85], specular_roughness = 0.05, "
-            "transmission_weight = $ }",
+            "principled = { base_color = [0.2, 0.5, 0.3], transmission_color = [0.75, 0.95, 0.85], "
+            "specular_roughness = 0.05, transmission_weight = $ }",
             SIX,
         ),
         strip=True,
@@ -167,14 +180,16 @@ LAYERS = [
     Figure(
         "materials/principled-coat",
         each(
-            "principled = { base_color = [0.6, 0.08, 0.02], base_metalness = 0.7, specular_roughness = 0.5, coat_weight = $ }",
+            "principled = { base_color = [0.6, 0.08, 0.02], base_metalness = 0.7, specular_roughness = 0.5, "
+            "coat_weight = $ }",
             SIX,
         ),
     ),
     Figure(
         "materials/principled-fuzz",
         each(
-            "principled = { base_color = [0.03, 0.06, 0.16], specular_weight = 0.2, fuzz_color = [0.7, 0.8, 1], fuzz_weight = $ }",
+            "principled = { base_color = [0.03, 0.06, 0.16], specular_weight = 0.2, fuzz_color = [0.7, 0.8, 1], "
+            "fuzz_weight = $ }",
             SIX,
         ),
     ),
@@ -250,7 +265,12 @@ OTHERS = [
         "materials/emissive",
         each("emissive.radiance = $", ("[0.1, 0.08, 0.05]", "[0.4, 0.3, 0.18]", "[1.5, 1.1, 0.7]", "[5, 3.8, 2.4]"))
         + ['emissive.radiance = "bands"', "emissive = { radiance = [0.05, 0.15, 0.6], albedo = 0.5 }"],
-        more='[texture.bands.checker]\neven = [0.05, 1.2, 0.7]\nodd = 0.02\nmapping = { space = "uv", scale = [0, 12, 1] }\n',
+        more="""
+[texture.bands.checker]
+even = [0.05, 1.2, 0.7]
+odd = 0.02
+mapping = { space = "uv", scale = [0, 12, 1] }
+""",
         light=0.12,
         sky=0.03,
         exposure=1.0,
@@ -275,7 +295,14 @@ OTHERS = [
         "materials/normal-map",
         [
             f'normal-map = {{ of = "{of}", map = "studs", strength = {strength} }}'
-            for of, strength in [("enamel", 0.3), ("enamel", 1), ("enamel", -1), ("polished", 0.3), ("polished", 1), ("polished", -1)]
+            for of, strength in [
+                ("enamel", 0.3),
+                ("enamel", 1),
+                ("enamel", -1),
+                ("polished", 0.3),
+                ("polished", 1),
+                ("polished", -1),
+            ]
         ],
         more=PARTS
         + '[texture.studs.image]\nfile = "studs.png"\nencoding = "linear"\nmapping = { scale = [16, 8, 1] }\n',
