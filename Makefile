@@ -96,6 +96,12 @@ agree-peers: peers-setup
 figures:
 	cargo run --release -- figures paper -o docs/figures
 
+# The figures of the pages about materials and textures (docs/materials, docs/textures): a quarter of an hour on two cores.
+.PHONY: figures-materials
+figures-materials:
+	cargo build --release --locked
+	python3 -B docs/materials/figures.py --eyebeam target/release/eyebeam
+
 # The pictures in the README.
 pictures:
 	mkdir -p docs/pictures

@@ -43,6 +43,30 @@ fn the_gallery_renders() {
 }
 
 #[test]
+fn every_figure_of_the_pages_about_materials_and_textures_renders() {
+    let place = Place::new();
+    let folder = place.path("figures");
+    let eyebeam = env!("CARGO_BIN_EXE_eyebeam");
+    let figures = "../docs/materials/figures.py";
+    if let Some(run) = script(&[figures, "--quick", "--eyebeam", eyebeam, "--output", &folder.to_string_lossy()]) {
+        run.ends_with(0);
+        for kind in ["materials", "textures"] {
+            for entry in fs::read_dir(scenes().join("../docs").join(kind)).unwrap() {
+                let page = entry.unwrap().path();
+                if page.extension() != Some("md".as_ref()) {
+                    continue;
+                }
+                let text = fs::read_to_string(&page).unwrap();
+                let pictures = text.lines().filter(|line| line.starts_with("!["));
+                for name in pictures.filter_map(|line| line.split_once("](")?.1.strip_suffix(')')) {
+                    assert!(folder.join(kind).join(name).is_file(), "{} shows {name}", page.display());
+                }
+            }
+        }
+    }
+}
+
+#[test]
 fn every_scene_is_in_the_table() {
     let table = fs::read_to_string(scenes().join("README.md")).unwrap();
     for entry in fs::read_dir(scenes()).unwrap() {
