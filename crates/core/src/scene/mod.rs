@@ -214,7 +214,8 @@ impl Scene {
         Ok(scene)
     }
 
-    /// The nearest surface that the ray meets; its direction must have length 1.
+    /// The nearest surface that the ray meets; its direction must have length 1. What moves is there while the shutter is open, where it
+    /// is at the time of the ray.
     #[inline(always)]
     pub fn intersect(&self, ray: &Ray) -> Option<SurfaceInteraction<'_>> {
         if self.holes != Holes::None {

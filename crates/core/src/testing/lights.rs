@@ -11,11 +11,11 @@ use crate::material::{Emissive, MaterialDesc};
 use crate::shape::SurfacePoint;
 use crate::texture::NoTextures;
 
-/// Every light of a scene, alone: surfaces that shine, primitive by primitive, then lamps without size, suns, and the
+/// Every light of a scene, alone: surfaces that shine and rest, primitive by primitive, then lamps without size, suns, and the
 /// environment, also one that is never sampled.
 pub fn lights_of(desc: &SceneDesc) -> Vec<Box<dyn LightSampling>> {
     let mut lights: Vec<Box<dyn LightSampling>> = Vec::new();
-    for (_, _, shape) in desc.shape.iter() {
+    for (_, _, shape) in desc.shape.iter().filter(|(_, _, shape)| shape.motion().keys.is_empty()) {
         if let Some(MaterialDesc::Emissive(emissive)) = shape.material().and_then(|name| desc.material.get(name)) {
             let mut primitives = Vec::new();
             shape.push_primitives(&mut primitives);
