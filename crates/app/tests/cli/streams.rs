@@ -64,7 +64,8 @@ fn stats() {
     assert_eq!(stats["scene_hash"].as_str().unwrap().len(), 64);
     let settings = serde_json::json!({
         "width": 32, "height": 18, "spp": 20, "max_depth": 50, "seed": 5, "integrator": "path", "sampler": "sobol",
-        "filter": {"blackman-harris": {"radius": 1.5}}, "light_selection": "tree", "transparent": false, "clamp": 0.0
+        "filter": {"blackman-harris": {"radius": 1.5}}, "light_selection": "tree", "transparent": false, "clamp": 0.0,
+        "shutter": [0.0, 1.0]
     });
     assert_eq!(stats["settings"], settings);
     let look = serde_json::json!({
