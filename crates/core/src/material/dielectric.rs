@@ -148,9 +148,9 @@ pub struct DielectricBsdf {
 }
 
 impl DielectricBsdf {
-    /// The same between other indices.
-    pub(crate) fn with_eta(self, eta: f32) -> Self {
-        Self { eta, ..self }
+    /// Puts it between other indices.
+    pub(crate) fn set_eta(&mut self, eta: f32) {
+        self.eta = eta;
     }
 
     /// The refracted lobe is as narrow as the facets' slopes and the bend at each are small.

@@ -304,11 +304,10 @@ impl Bsdf {
     /// That of a surface that is not there.
     pub const NOTHING: Self = Self::Null(NullBsdf);
 
-    /// The same between other indices of refraction: that inside over that outside.
-    pub(crate) fn with_eta(self, eta: f32) -> Self {
-        match self {
-            Self::Dielectric(b) => Self::Dielectric(b.with_eta(eta)),
-            other => other,
+    /// Puts it between other indices of refraction: that inside over that outside.
+    pub(crate) fn set_eta(&mut self, eta: f32) {
+        if let Self::Dielectric(b) = self {
+            b.set_eta(eta);
         }
     }
 

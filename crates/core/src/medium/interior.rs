@@ -90,8 +90,12 @@ impl<'s> Interior<'s> {
     /// How a surface scatters light between what is on its sides.
     #[inline]
     pub fn bsdf(&self, si: &SurfaceInteraction<'_>) -> Bsdf {
-        let bsdf = si.bsdf();
-        if self.fillings.is_empty() { bsdf } else { self.between(bsdf, si) }
+        let mut bsdf = si.bsdf();
+        // In place: a lobe is long, and seldom changed.
+        if !self.fillings.is_empty() {
+            self.set_between(&mut bsdf, si);
+        }
+        bsdf
     }
 
     /// Goes through a surface, if a sample does.
@@ -110,11 +114,15 @@ impl<'s> Interior<'s> {
     }
 
     #[inline(never)]
-    fn between(&self, bsdf: Bsdf, si: &SurfaceInteraction<'_>) -> Bsdf {
+    fn set_between(&self, bsdf: &mut Bsdf, si: &SurfaceInteraction<'_>) {
         let material = si.shape_material();
-        let Some(filling) = self.filling(material).filter(|filling| filling.priority > 0) else { return bsdf };
+        let Some(filling) = self.filling(material).filter(|filling| filling.priority > 0) else { return };
         let outside = if si.is_outside() { self.top() } else { self.without(material).top() };
-        if outside.priority > filling.priority { Bsdf::NOTHING } else { bsdf.with_eta(filling.eta / outside.eta) }
+        if outside.priority > filling.priority {
+            *bsdf = Bsdf::NOTHING;
+        } else {
+            bsdf.set_eta(filling.eta / outside.eta);
+        }
     }
 
     /// What is behind a surface, as seen from where the ray came from.
