@@ -12,6 +12,7 @@ from __future__ import annotations
 
 import argparse
 import json
+import shutil
 import subprocess
 import sys
 import tempfile
@@ -81,7 +82,7 @@ PICTURES = [
 
 def run(command: list[str]) -> None:
     """Runs a command; if it fails, ends with what it said."""
-    done = subprocess.run(command, capture_output=True, text=True)
+    done = subprocess.run(command, capture_output=True, text=True, cwd=ROOT)
     if done.returncode != 0:
         sys.exit(f"{' '.join(command)}\n{done.stderr}")
 
@@ -91,7 +92,8 @@ def render(picture: Picture, eyebeam: str, folder: Path, is_quick: bool) -> dict
     width, height = (32, 18) if is_quick else picture.size
     with tempfile.TemporaryDirectory() as scratch:
         linear, stats = f"{scratch}/linear.exr", f"{scratch}/stats.json"
-        scene, size = str(SCENES / f"{picture.scene}.toml"), f"{width}x{height}"
+        # From the repository: pictures carry the name of their scene, which shall be the same on every machine.
+        scene, size = f"scenes/{picture.scene}.toml", f"{width}x{height}"
         spp = 2 if is_quick else picture.spp
         run([eyebeam, "render", scene, "-q", "--strict", "-o", linear, "--stats", stats, "-r", size, "--spp", str(spp)])
         file = folder / f"{picture.scene}.jpg"
@@ -159,13 +161,14 @@ def main() -> None:
     if unknown:
         parser.error(f"no such picture: {', '.join(sorted(unknown))}")
     folder = arguments.output or (Path(tempfile.mkdtemp()) if arguments.quick else ROOT / "docs/gallery")
+    folder, eyebeam = folder.resolve(), str(Path(shutil.which(arguments.eyebeam) or arguments.eyebeam).resolve())
     folder.mkdir(parents=True, exist_ok=True)
     numbers = folder / "measured.json"
     measured = json.loads(numbers.read_text()) if numbers.is_file() else {}
     for picture in PICTURES:
         if not arguments.scenes or picture.scene in arguments.scenes:
             print(picture.scene, flush=True)
-            measured[picture.scene] = render(picture, arguments.eyebeam, folder, arguments.quick)
+            measured[picture.scene] = render(picture, eyebeam, folder, arguments.quick)
             numbers.write_text(json.dumps(measured, indent=2) + "\n")
     (folder / "index.md").write_text(page(measured), encoding="utf-8")
     print(folder / "index.md")

@@ -1,13 +1,12 @@
 //! What materials cost: a floor of each that fills the picture, under a lamp and an even sky.
 
 use std::error::Error;
-use std::num::NonZeroUsize;
 
 use eyebeam_core::desc::SceneDesc;
 use eyebeam_core::scene::Scene;
 use eyebeam_io::scene::read_str;
 
-use crate::measure::{median, render, samples, thread_time};
+use crate::measure::nanoseconds_a_sample;
 
 /// What a floor is made of, by its name: `[material.floor…]` and what that needs.
 const MATERIALS: &[(&str, &str)] = &[
@@ -83,14 +82,7 @@ matte.lambertian.albedo = 0.5
 /// If a scene cannot be read or built.
 pub fn run(rounds: usize) -> Result<(), Box<dyn Error>> {
     let scenes = MATERIALS.iter().map(|(_, material)| scene(material)).collect::<Result<Vec<_>, _>>()?;
-    let mut times = vec![Vec::new(); scenes.len()];
-    for _ in 0..rounds {
-        for ((scene, desc), times) in scenes.iter().zip(&mut times) {
-            let time = thread_time(|| render(scene, desc, NonZeroUsize::MIN));
-            times.push(time.as_secs_f64() * 1e9 / samples(desc) as f64);
-        }
-    }
-    let times: Vec<_> = times.into_iter().map(median).collect();
+    let times = nanoseconds_a_sample(&scenes, rounds);
     println!("| material | ns a sample | times lambertian |");
     println!("|---|---|---|");
     for ((name, _), time) in MATERIALS.iter().zip(&times) {

@@ -63,6 +63,18 @@ pub fn thread_time<T>(work: impl FnOnce() -> T) -> Duration {
     start.elapsed()
 }
 
+/// What a sample of each scene takes one thread, ns: medians of rounds in which all have their turn.
+pub fn nanoseconds_a_sample(scenes: &[(Scene, SceneDesc)], rounds: usize) -> Vec<f64> {
+    let mut times = vec![Vec::new(); scenes.len()];
+    for _ in 0..rounds {
+        for ((scene, desc), times) in scenes.iter().zip(&mut times) {
+            let time = thread_time(|| render(scene, desc, NonZeroUsize::MIN));
+            times.push(time.as_secs_f64() * 1e9 / samples(desc) as f64);
+        }
+    }
+    times.into_iter().map(median).collect()
+}
+
 /// The value in the middle.
 ///
 /// # Panics

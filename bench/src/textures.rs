@@ -22,7 +22,7 @@ use eyebeam_core::texture::{
 };
 use glam::UVec2;
 
-use crate::measure::{median, render, samples, thread_time};
+use crate::measure::{median, nanoseconds_a_sample, render, thread_time};
 
 /// Prints all tables.
 ///
@@ -46,14 +46,7 @@ fn costs(rounds: usize) -> Result<(), Box<dyn Error>> {
         (desc.render.width, desc.render.height, desc.render.spp, desc.render.max_depth) = (128, 128, 16, 2);
         scenes.push((build(&desc)?, desc));
     }
-    let mut times = vec![Vec::new(); scenes.len()];
-    for _ in 0..rounds {
-        for ((scene, desc), times) in scenes.iter().zip(&mut times) {
-            let time = thread_time(|| render(scene, desc, NonZeroUsize::MIN));
-            times.push(time.as_secs_f64() * 1e9 / samples(desc) as f64);
-        }
-    }
-    let times: Vec<_> = times.into_iter().map(median).collect();
+    let times = nanoseconds_a_sample(&scenes, rounds);
     for ((name, _), time) in kinds.iter().zip(&times) {
         println!("| {name} | {time:.0} | {:.0} |", time - times[0]);
     }

@@ -13,6 +13,7 @@ from __future__ import annotations
 
 import argparse
 import math
+import shutil
 import subprocess
 import sys
 import tempfile
@@ -119,9 +120,9 @@ def scene(figure: Figure) -> str:
     return "\n".join(parts)
 
 
-def run(command: list[str]) -> None:
-    """Runs a command; if it fails, ends with what it said."""
-    done = subprocess.run(command, capture_output=True, text=True)
+def run(command: list[str], folder: str) -> None:
+    """Runs a command in a folder; if it fails, ends with what it said."""
+    done = subprocess.run(command, capture_output=True, text=True, cwd=folder)
     if done.returncode != 0:
         sys.exit(f"{' '.join(command)}\n{done.stderr}")
 
@@ -136,17 +137,18 @@ def render(figure: Figure, eyebeam: str, folder: Path, options: argparse.Namespa
     with tempfile.TemporaryDirectory() as scratch:
         for name, write in PICTURES.items():
             Path(scratch, name).write_bytes(write())
-        file, linear = Path(scratch, "figure.toml"), str(Path(scratch, "linear.exr"))
-        file.write_text(scene(figure), encoding="utf-8")
+        # Without a folder: pictures carry the name of their scene, which shall be the same on every machine.
+        file, linear = "figure.toml", "linear.exr"
+        Path(scratch, file).write_text(scene(figure), encoding="utf-8")
         size = ["-r", f"{width}x{height}", "--spp", str(spp)]
         if options.threads:
             size += ["-t", str(options.threads)]
-        run([eyebeam, "render", str(file), "-q", "--strict", "-o", linear, *size])
+        run([eyebeam, "render", file, "-q", "--strict", "-o", linear, *size], scratch)
         picture = folder / f"{figure.name}.jpg"
         picture.parent.mkdir(parents=True, exist_ok=True)
         for quality in QUALITIES:
             look = ["--view", "agx", "--exposure", str(figure.exposure), "--quality", str(quality)]
-            run([eyebeam, "develop", linear, "-q", "-o", str(picture), *look])
+            run([eyebeam, "develop", linear, "-q", "-o", str(picture), *look], scratch)
             if picture.stat().st_size <= LARGEST:
                 break
 
@@ -165,10 +167,11 @@ def main() -> None:
     if unknown:
         parser.error(f"no such figure: {', '.join(sorted(unknown))}")
     folder = options.output or (Path(tempfile.mkdtemp()) if options.quick else DOCS)
+    folder, eyebeam = folder.resolve(), str(Path(shutil.which(options.eyebeam) or options.eyebeam).resolve())
     for figure in FIGURES:
         if not options.figures or figure.name in options.figures:
             print(figure.name, flush=True)
-            render(figure, options.eyebeam, folder, options)
+            render(figure, eyebeam, folder, options)
     print(folder)
 
 

@@ -48,6 +48,11 @@ impl From<Name> for String {
 /// Names by their keys, where a value may be one.
 pub(crate) type Named<'a> = Vec<(&'static str, Option<&'a mut Name>)>;
 
+/// The names alone.
+pub(crate) fn words(names: Named<'_>) -> Vec<String> {
+    names.into_iter().filter_map(|(_, name)| Some(name?.name.clone())).collect()
+}
+
 /// The numbers of things, by their names.
 #[derive(Clone, Debug)]
 pub(crate) struct Numbers<'d>(BTreeMap<&'d str, u32>);

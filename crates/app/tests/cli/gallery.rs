@@ -1,6 +1,7 @@
 //! The scripts beside the scenes: the gallery is rendered, meshes are what is written, and every scene is told of.
 
 use std::fs;
+use std::path::Path;
 use std::process::Command;
 
 use crate::{Place, Run, scenes};
@@ -26,6 +27,25 @@ fn meshes_are_what_the_generator_writes() {
     }
 }
 
+/// That pictures name their scenes without a folder of the machine that made them.
+fn names_no_place(folder: &Path) {
+    let absolute = b"\"scene\":\"/";
+    for entry in fs::read_dir(folder).unwrap() {
+        let path = entry.unwrap().path();
+        if path.extension() == Some("jpg".as_ref()) {
+            let bytes = fs::read(&path).unwrap();
+            assert!(!bytes.windows(absolute.len()).any(|bytes| bytes == absolute), "{}", path.display());
+        }
+    }
+}
+
+#[test]
+fn pictures_of_the_documentation_name_no_place() {
+    for folder in ["gallery", "materials", "textures"] {
+        names_no_place(&scenes().join("../docs").join(folder));
+    }
+}
+
 #[test]
 fn the_gallery_renders() {
     let place = Place::new();
@@ -38,6 +58,7 @@ fn the_gallery_renders() {
         let files =
             fs::read_dir(&folder).unwrap().filter(|f| f.as_ref().unwrap().path().extension() == Some("jpg".as_ref()));
         assert!(pictures > 10);
+        names_no_place(&folder);
         assert_eq!(files.count(), pictures);
     }
 }

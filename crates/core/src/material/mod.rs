@@ -37,7 +37,7 @@ use serde::{Deserialize, Serialize};
 
 use crate::color::Spectrum;
 use crate::desc::SceneDesc;
-use crate::names::{Named, Nesting};
+use crate::names::{self, Named, Nesting};
 use crate::texture::{Color, Textures};
 use crate::validate::Checker;
 
@@ -104,11 +104,7 @@ pub enum MaterialDesc {
 /// Notes what is wrong with materials, names that do not exist, and materials that are made of themselves.
 pub(crate) fn check(materials: &BTreeMap<String, MaterialDesc>, textures: &Nesting<'_>, c: &mut Checker) {
     let words = ["material", "materials", "add one as [material.NAME.KIND]"];
-    let parts = |material: &MaterialDesc| {
-        let mut material = material.clone();
-        let names = material.parts().into_iter().filter_map(|(_, name)| name);
-        names.map(|name| name.name().to_owned()).collect()
-    };
+    let parts = |material: &MaterialDesc| names::words(material.clone().parts());
     let named = materials.iter().map(|(name, material)| (name.as_str(), parts(material)));
     let mut nesting = Nesting::new(words, iter::once((SceneDesc::DEFAULT_MATERIAL, vec![])).chain(named));
     for (name, material) in materials {

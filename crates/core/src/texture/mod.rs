@@ -37,7 +37,7 @@ use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 use crate::color::{Rgb, Spectrum};
-use crate::names::{Named, Nesting, Numbers};
+use crate::names::{self, Named, Nesting, Numbers};
 use crate::validate::Checker as Check;
 
 pub use channel::{Channel, ChannelOf};
@@ -221,11 +221,7 @@ pub(crate) fn compile(textures: &BTreeMap<String, TextureDesc>) -> Vec<TextureDe
 /// How textures are made of one another.
 pub(crate) fn nesting(textures: &BTreeMap<String, TextureDesc>) -> Nesting<'_> {
     let words = ["texture", "textures", "add one as [texture.NAME.KIND], or write a value"];
-    let parts = |texture: &TextureDesc| {
-        let mut texture = texture.clone();
-        let names = texture.textures().1.into_iter().filter_map(|(_, name)| name);
-        names.map(|name| name.name().to_owned()).collect()
-    };
+    let parts = |texture: &TextureDesc| names::words(texture.clone().textures().1);
     Nesting::new(words, textures.iter().map(|(name, texture)| (name.as_str(), parts(texture))))
 }
 
