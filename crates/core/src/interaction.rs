@@ -8,7 +8,7 @@ use crate::light::{LightSample, Target};
 use crate::material::{Bsdf, BsdfSample, MaterialDesc};
 use crate::math::{Frame, renormalize};
 use crate::sampler::Sampler;
-use crate::scene::{Dress, Met};
+use crate::scene::Met;
 use crate::shape::SurfacePoint;
 use crate::texture::Textures;
 
@@ -38,14 +38,14 @@ impl<'s> SurfaceInteraction<'s> {
     pub(crate) fn new(
         point: SurfacePoint,
         d: Vec3,
-        dress: &Dress<'s>,
+        along_u: Vec3,
+        material: &'s MaterialDesc,
         light: Option<u32>,
         on: Slot,
         met: Met<'s>,
     ) -> Self {
-        let (point, frame) = (point.with_ns(dress.ns), Frame::from_z(dress.ns));
-        let (wo_world, wo) = (-d, frame.to_local(-d));
-        Self { point, frame, wo_world, wo, along_u: dress.along_u, material: dress.material, light, on, met }
+        let frame = Frame::from_z(point.ns);
+        Self { point, frame, wo_world: -d, wo: frame.to_local(-d), along_u, material, light, on, met }
     }
 
     /// Where the surface was met.
@@ -145,7 +145,7 @@ impl<'s> SurfaceInteraction<'s> {
     }
 
     /// The ray from here to a light, which ends before it.
-    #[inline]
+    #[inline(always)]
     pub fn shadow_ray(&self, light: &LightSample) -> Ray {
         match light.target {
             Target::Infinity => self.spawn_ray(light.wi),

@@ -88,6 +88,21 @@ fn every_figure_of_the_pages_about_materials_and_textures_renders() {
 }
 
 #[test]
+fn every_material_has_its_page_with_a_figure_and_an_example() {
+    let docs = scenes().join("../docs");
+    let schema = fs::read_to_string(docs.join("formats/scene.schema.json")).unwrap();
+    let schema: serde_json::Value = serde_json::from_str(&schema).unwrap();
+    let kinds = schema["$defs"]["MaterialDesc"]["oneOf"].as_array().unwrap();
+    assert!(kinds.len() > 10);
+    let index = fs::read_to_string(docs.join("materials/index.md")).unwrap();
+    for kind in kinds.iter().map(|kind| kind["required"][0].as_str().unwrap()) {
+        let page = fs::read_to_string(docs.join(format!("materials/{kind}.md"))).expect(kind);
+        assert!(page.contains("\n![") && page.contains("```toml\n"), "the page of {kind} shows nothing");
+        assert!(index.contains(&format!("({kind}.md)")), "the index of materials does not lead to {kind}");
+    }
+}
+
+#[test]
 fn every_scene_is_in_the_table() {
     let table = fs::read_to_string(scenes().join("README.md")).unwrap();
     for entry in fs::read_dir(scenes()).unwrap() {

@@ -28,28 +28,44 @@ pub struct Path {
 
 impl Integrator for Path {
     fn render(&self, scene: &Scene, unit: &Unit<'_>, tile: &mut Tile) -> u64 {
-        let mut rays = 0;
-        unit.for_each_sample(tile, |ray, sampler| self.radiance(scene, ray, sampler, &mut rays));
-        rays
+        // Compiled twice, so that plain scenes pay for nothing that they have none of.
+        if scene.is_plain() {
+            self.render_as::<true>(scene, unit, tile)
+        } else {
+            self.render_as::<false>(scene, unit, tile)
+        }
     }
 }
 
 impl Path {
+    #[inline(never)]
+    fn render_as<const PLAIN: bool>(&self, scene: &Scene, unit: &Unit<'_>, tile: &mut Tile) -> u64 {
+        let mut rays = 0;
+        unit.for_each_sample(tile, |ray, sampler| self.radiance::<PLAIN>(scene, ray, sampler, &mut rays));
+        rays
+    }
+
     #[inline]
-    fn radiance(&self, scene: &Scene, mut ray: Ray, sampler: &mut Sampler<'_>, rays: &mut u64) -> Seen {
+    fn radiance<const PLAIN: bool>(
+        &self,
+        scene: &Scene,
+        mut ray: Ray,
+        sampler: &mut Sampler<'_>,
+        rays: &mut u64,
+    ) -> Seen {
         let lights = scene.lights();
         let mut l = Spectrum::BLACK;
         let mut beta = Spectrum::ONE;
         // Refraction squeezes light into another solid angle; that is no reason to end or keep a path.
         let mut eta_sq = 1.0;
         let mut scattered: Option<Scattered> = None;
-        let mut interior = Interior::new(scene);
+        let mut interior = if PLAIN { Interior::EMPTY } else { Interior::new(scene) };
         // Nothing but smooth glass so far, through which the background shows.
         let mut clear = true;
         for depth in 1..=self.max_depth {
             *rays += 1;
             // What is there?
-            let Some(si) = scene.intersect(&ray) else {
+            let Some(si) = scene.intersect_as::<PLAIN>(&ray) else {
                 return Seen::outside(l, beta * lights.le(ray.d, scattered), clear);
             };
             interior.absorb(&mut beta, ray.o, si.point().p);
@@ -95,7 +111,7 @@ impl Path {
 }
 
 /// Light that one of the lights sends to a point and from there back along the ray, unless something is in between.
-#[inline]
+#[inline(always)]
 fn direct(
     scene: &Scene,
     si: &SurfaceInteraction<'_>,

@@ -135,7 +135,7 @@ impl Lights {
     }
 
     /// Draws a light for a point with normal `n`, and a direction to it.
-    #[inline]
+    #[inline(always)]
     pub(crate) fn sample(&self, p: Vec3, n: Vec3, uc: f32, u: Vec2) -> Option<LightSample> {
         let near = self.near_chance(p, n);
         if uc < near {

@@ -154,6 +154,15 @@ impl MaterialDesc {
     pub fn bsdf(&self, textures: &impl Textures) -> Bsdf {
         match self {
             Self::Lambertian(m) => Bsdf::Lambertian(m.bsdf(textures)),
+            _ => self.any_bsdf(textures),
+        }
+    }
+
+    /// Out of line: the room that long lobes take on the stack would cost the shortest one time.
+    #[inline(never)]
+    fn any_bsdf(&self, textures: &impl Textures) -> Bsdf {
+        match self {
+            Self::Lambertian(m) => Bsdf::Lambertian(m.bsdf(textures)),
             Self::OrenNayar(m) => Bsdf::OrenNayar(m.bsdf(textures)),
             Self::DiffuseTransmission(m) => Bsdf::DiffuseTransmission(m.bsdf(textures)),
             Self::Plastic(m) => Bsdf::Plastic(m.bsdf(textures)),

@@ -61,8 +61,11 @@ impl<'s> Interior<'s> {
         Self::open(scene.fillings())
     }
 
+    /// In the open, where nothing is filled.
+    pub(crate) const EMPTY: Self = Self::open(&[]);
+
     #[inline]
-    fn open(fillings: &'s [Option<Filling>]) -> Self {
+    const fn open(fillings: &'s [Option<Filling>]) -> Self {
         Self { fillings, entered: [0; MOST], count: 0 }
     }
 
@@ -90,12 +93,7 @@ impl<'s> Interior<'s> {
     /// How a surface scatters light between what is on its sides.
     #[inline]
     pub fn bsdf(&self, si: &SurfaceInteraction<'_>) -> Bsdf {
-        let mut bsdf = si.bsdf();
-        // In place: a lobe is long, and seldom changed.
-        if !self.fillings.is_empty() {
-            self.set_between(&mut bsdf, si);
-        }
-        bsdf
+        if self.fillings.is_empty() { si.bsdf() } else { self.between(si) }
     }
 
     /// Goes through a surface, if a sample does.
@@ -114,15 +112,16 @@ impl<'s> Interior<'s> {
     }
 
     #[inline(never)]
-    fn set_between(&self, bsdf: &mut Bsdf, si: &SurfaceInteraction<'_>) {
+    fn between(&self, si: &SurfaceInteraction<'_>) -> Bsdf {
+        let mut bsdf = si.bsdf();
         let material = si.shape_material();
-        let Some(filling) = self.filling(material).filter(|filling| filling.priority > 0) else { return };
+        let Some(filling) = self.filling(material).filter(|filling| filling.priority > 0) else { return bsdf };
         let outside = if si.is_outside() { self.top() } else { self.without(material).top() };
         if outside.priority > filling.priority {
-            *bsdf = Bsdf::NOTHING;
-        } else {
-            bsdf.set_eta(filling.eta / outside.eta);
+            return Bsdf::NOTHING;
         }
+        bsdf.set_eta(filling.eta / outside.eta);
+        bsdf
     }
 
     /// What is behind a surface, as seen from where the ray came from.

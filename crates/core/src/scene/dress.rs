@@ -70,11 +70,11 @@ impl Scene {
 
     /// Whether there is anything of a surface where a ray meets it.
     pub(super) fn is_there(&self, ray: &Ray, hit: &Hit) -> bool {
-        let met = Met::new(self, hit, ray.time);
+        let met = Met::new::<false>(self, hit, ray.time);
         if !met.object.has_holes {
             return true;
         }
-        let textures = met.textures(&met.point(ray, hit));
+        let textures = met.textures(&met.point::<false>(ray, hit));
         let mut dice = Dice::new(ray, hit);
         let mut opacity = 1.0;
         let mut material = self.material(&met);
@@ -101,7 +101,7 @@ impl Scene {
             if !is_round(&hit) || self.is_there(&ray, &hit) {
                 return Some((ray, hit));
             }
-            let point = Met::new(self, &hit, ray.time).point(&ray, &hit);
+            let point = Met::new::<false>(self, &hit, ray.time).point::<false>(&ray, &hit);
             let t_max = ray.t_max - hit.t;
             ray = Ray { t_max, time: ray.time, ..Ray::new(point.ray_origin(-ray.d, ray.d), ray.d) };
         }

@@ -22,9 +22,10 @@ pub(crate) struct Met<'s> {
 
 impl<'s> Met<'s> {
     #[inline(always)]
-    pub(super) fn new(scene: &'s Scene, hit: &Hit, time: f32) -> Self {
-        let (object, uv) = (&scene.objects[scene.object_of(hit) as usize], Vec2::new(hit.u, hit.v));
-        let is_moved = hit.instances[0] != Hit::NO_INSTANCE;
+    pub(super) fn new<const PLAIN: bool>(scene: &'s Scene, hit: &Hit, time: f32) -> Self {
+        let is_moved = !PLAIN && hit.instances[0] != Hit::NO_INSTANCE;
+        let place = if is_moved { hit.instances[0] } else { hit.prim };
+        let (object, uv) = (&scene.objects[scene.object_of[place as usize] as usize], Vec2::new(hit.u, hit.v));
         let primitive = if is_moved { hit.prim } else { hit.prim - object.first_primitive };
         Self { scene, object, primitive, uv, time }
     }
@@ -37,14 +38,14 @@ impl<'s> Met<'s> {
 
     /// Where the ray met it.
     #[inline(always)]
-    pub(super) fn point(&self, ray: &Ray, hit: &Hit) -> SurfacePoint {
-        match (&self.object.plane, &self.object.motion) {
-            (Some(plane), _) => plane.point(self.uv),
-            (None, None) => {
+    pub(super) fn point<const PLAIN: bool>(&self, ray: &Ray, hit: &Hit) -> SurfacePoint {
+        match (&self.object.single, &self.object.motion) {
+            (Some(single), _) => single.point(ray, hit),
+            (None, Some(motion)) if !PLAIN => self.moved_point(motion, ray, hit),
+            (None, _) => {
                 let surface = self.scene.bvh.surface(hit, ray.time);
                 SurfacePoint::new(&surface, ray, hit, self.object.smooth.as_ref(), self.primitive)
             }
-            (None, Some(motion)) => self.moved_point(motion, ray, hit),
         }
     }
 

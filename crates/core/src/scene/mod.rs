@@ -25,7 +25,7 @@ use crate::material::MaterialDesc;
 use crate::medium::Filling;
 use crate::motion::{Course, Motion};
 use crate::names::Numbers;
-use crate::shape::{Plane, Smooth, VertexData};
+use crate::shape::{Single, Smooth, VertexData};
 use crate::texture::{self, TextureDesc};
 use crate::validate::Problem;
 
@@ -64,6 +64,7 @@ pub struct Scene {
     lights: Lights,
     camera: CameraDesc,
     holes: Holes,
+    is_plain: bool,
     primitive_count: usize,
     shutter: [f32; 2],
     /// Whether a shape moves while the shutter is open.
@@ -80,11 +81,11 @@ struct Object {
     first_light: Option<u32>,
     smooth: Option<Smooth>,
     /// If it is moved.
-    motion: Option<Motion>,
-    /// If it is a single quad that is not moved.
-    plane: Option<Plane>,
+    motion: Option<Box<Motion>>,
+    /// If it is one primitive that is not moved.
+    single: Option<Single>,
     /// What vertices say to textures, if they do.
-    vertices: Option<VertexData>,
+    vertices: Option<Box<VertexData>>,
     /// Where the shape's own coordinates begin.
     origin: Vec3,
     /// Whether it is a sphere.
@@ -96,6 +97,10 @@ struct Object {
 }
 
 impl Object {
+    fn is_plain(&self) -> bool {
+        !self.is_dressed && !self.has_holes && self.motion.is_none()
+    }
+
     fn holes(&self) -> Holes {
         match (self.has_holes, self.is_round) {
             (false, _) => Holes::None,
@@ -177,9 +182,9 @@ impl Scene {
                 first_primitive: first as u32,
                 first_light: None,
                 smooth: shape.smooth(),
-                plane: shape.plane().filter(|_| motion.is_none()),
-                motion,
-                vertices: shape.vertex_data(),
+                single: shape.single().filter(|_| motion.is_none()),
+                motion: motion.map(Box::new),
+                vertices: shape.vertex_data().map(Box::new),
                 origin: shape.origin(),
                 is_round,
                 is_dressed: wear.is_dressed,
@@ -193,7 +198,8 @@ impl Scene {
         let camera = desc.camera.clone();
         let fillings = fillings(&materials);
         let (primitive_count, shutter) = (geometry.primitive_count, desc.render.shutter);
-        let moves = objects.iter().filter_map(|object| object.motion.as_ref()).any(Motion::is_moving);
+        let is_plain = fillings.is_empty() && objects.iter().all(Object::is_plain);
+        let moves = objects.iter().filter_map(|object| object.motion.as_ref()).any(|motion| motion.is_moving());
         let mut scene = Self {
             bvh,
             object_of,
@@ -204,6 +210,7 @@ impl Scene {
             lights,
             camera,
             holes,
+            is_plain,
             primitive_count,
             shutter,
             moves,
@@ -216,31 +223,43 @@ impl Scene {
 
     /// The nearest surface that the ray meets; its direction must have length 1. What moves is there while the shutter is open, where it
     /// is at the time of the ray.
-    #[inline(always)]
+    #[inline]
     pub fn intersect(&self, ray: &Ray) -> Option<SurfaceInteraction<'_>> {
-        if self.holes != Holes::None {
+        self.intersect_as::<false>(ray)
+    }
+
+    /// Whether its surfaces are no more than shapes that lie still, each of one material, with nothing inside.
+    #[inline]
+    pub(crate) fn is_plain(&self) -> bool {
+        self.is_plain
+    }
+
+    /// As [`intersect`](Self::intersect), in a scene that may be known to be [plain](Self::is_plain).
+    #[inline(always)]
+    pub(crate) fn intersect_as<const PLAIN: bool>(&self, ray: &Ray) -> Option<SurfaceInteraction<'_>> {
+        if !PLAIN && self.holes != Holes::None {
             return self.intersect_with_holes(ray);
         }
         let hit = self.bvh.intersect(ray)?;
-        Some(self.interaction(ray, &hit))
+        Some(self.interaction::<PLAIN>(ray, &hit))
     }
 
     #[inline(never)]
     fn intersect_with_holes(&self, ray: &Ray) -> Option<SurfaceInteraction<'_>> {
-        self.meet(ray).map(|(ray, hit)| self.interaction(&ray, &hit))
+        self.meet(ray).map(|(ray, hit)| self.interaction::<false>(&ray, &hit))
     }
 
     #[inline(always)]
-    fn interaction(&self, ray: &Ray, hit: &Hit) -> SurfaceInteraction<'_> {
-        let met = Met::new(self, hit, ray.time);
+    fn interaction<const PLAIN: bool>(&self, ray: &Ray, hit: &Hit) -> SurfaceInteraction<'_> {
+        let met = Met::new::<PLAIN>(self, hit, ray.time);
         let light = met.object.first_light.map(|first| first.saturating_add(met.primitive));
-        let point = met.point(ray, hit);
-        let dress = if met.object.is_dressed {
-            self.dress(point, &met, ray, hit)
-        } else {
-            Dress { ns: point.ns, along_u: Vec3::ZERO, material: self.material(&met) }
-        };
-        SurfaceInteraction::new(point, ray.d, &dress, light, hit.slot(), met)
+        let point = met.point::<PLAIN>(ray, hit);
+        let (on, material) = (hit.slot(), self.material(&met));
+        if PLAIN || !met.object.is_dressed {
+            return SurfaceInteraction::new(point, ray.d, Vec3::ZERO, material, light, on, met);
+        }
+        let Dress { ns, along_u, material } = self.dress(point, &met, ray, hit);
+        SurfaceInteraction::new(point.with_ns(ns), ray.d, along_u, material, light, on, met)
     }
 
     /// Index of the object that was hit. What moves is an object of its own tree.
@@ -259,7 +278,7 @@ impl Scene {
     /// As [`intersect`](Self::intersect), with what a picture can tell of the surface besides.
     pub(crate) fn look(&self, ray: &Ray) -> Option<Look<'_>> {
         let (last, hit) = self.meet(ray)?;
-        let si = self.interaction(&last, &hit);
+        let si = self.interaction::<false>(&last, &hit);
         let object = self.object_of(&hit);
         let [object, material] = [object, self.objects[object as usize].material].map(|index| index + 1);
         let t = last.o.distance(ray.o) + hit.t;
@@ -267,7 +286,7 @@ impl Scene {
     }
 
     /// Whether anything is in the way of the ray before its `t_max`.
-    #[inline]
+    #[inline(always)]
     pub fn occluded(&self, ray: &Ray) -> bool {
         match self.holes {
             Holes::None => self.bvh.occluded(ray),
@@ -277,7 +296,7 @@ impl Scene {
     }
 
     /// Radiance that arrives from a light at a surface; irradiance if it has no size.
-    #[inline]
+    #[inline(always)]
     pub(crate) fn arriving(&self, light: &LightSample, si: &SurfaceInteraction<'_>) -> Spectrum {
         match light.varies {
             None if self.occluded(&si.shadow_ray(light)) => Spectrum::BLACK,

@@ -10,7 +10,7 @@ mod quad;
 mod smooth;
 mod sphere;
 
-use eyebeam_bvh::{Bvh, Hit, Primitive, Ray, Surface};
+use eyebeam_bvh::{Bvh, Hit, Primitive, Ray, Sphere, Surface};
 use glam::{Vec2, Vec3};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
@@ -89,9 +89,27 @@ pub(crate) trait ShapeDesc {
         Vec3::ZERO
     }
 
-    /// Its plane, if it is one.
-    fn plane(&self) -> Option<Plane> {
+    /// Its only primitive, if it has but one.
+    fn single(&self) -> Option<Single> {
         None
+    }
+}
+
+/// A shape of one primitive, which need not be asked of the tree.
+#[derive(Clone, Debug)]
+pub(crate) enum Single {
+    Plane(Plane),
+    Sphere(Sphere),
+}
+
+impl Single {
+    /// Where `ray` hit it.
+    #[inline(always)]
+    pub(crate) fn point(&self, ray: &Ray, hit: &Hit) -> SurfacePoint {
+        match self {
+            Self::Plane(plane) => plane.point(Vec2::new(hit.u, hit.v)),
+            Self::Sphere(sphere) => sphere::point(sphere, ray, hit),
+        }
     }
 }
 

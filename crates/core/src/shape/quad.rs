@@ -15,7 +15,7 @@ use serde::{Deserialize, Serialize};
 
 use crate::array::{array, optional_array};
 use crate::motion::{MotionDesc, MotionKey};
-use crate::shape::{Plane, ShapeDesc};
+use crate::shape::{Plane, ShapeDesc, Single};
 use crate::validate::Checker;
 
 /// A parallelogram: a corner and two edges. Its normal is u × v.
@@ -58,9 +58,9 @@ impl ShapeDesc for QuadDesc {
         primitives.push(Primitive::Quad(quad));
     }
 
-    fn plane(&self) -> Option<Plane> {
+    fn single(&self) -> Option<Single> {
         let [corner, u, v] = [self.corner, self.u, self.v].map(|v| Vec3::from(v).as_dvec3());
-        Some(Plane::new(corner, [u, v]))
+        Some(Single::Plane(Plane::new(corner, [u, v])))
     }
 
     fn origin(&self) -> Vec3 {

@@ -16,7 +16,7 @@ use serde::{Deserialize, Serialize};
 
 use crate::array::{array, optional_array};
 use crate::motion::{MotionDesc, MotionKey};
-use crate::shape::{ShapeDesc, SurfacePoint};
+use crate::shape::{ShapeDesc, Single, SurfacePoint};
 use crate::validate::Checker;
 
 /// A sphere; its normal points outwards.
@@ -39,6 +39,12 @@ pub struct SphereDesc {
     pub pivot: Option<[f32; 3]>,
 }
 
+impl SphereDesc {
+    fn sphere(&self) -> Sphere {
+        Sphere { center: self.center.into(), radius: self.radius }
+    }
+}
+
 impl ShapeDesc for SphereDesc {
     fn check(&self, c: &mut Checker) {
         c.finite("center", &self.center);
@@ -46,7 +52,11 @@ impl ShapeDesc for SphereDesc {
     }
 
     fn push_primitives(&self, primitives: &mut Vec<Primitive>) {
-        primitives.push(Primitive::Sphere(Sphere { center: Vec3::from(self.center), radius: self.radius }));
+        primitives.push(Primitive::Sphere(self.sphere()));
+    }
+
+    fn single(&self) -> Option<Single> {
+        Some(Single::Sphere(self.sphere()))
     }
 
     fn origin(&self) -> Vec3 {
