@@ -43,6 +43,7 @@ pub mod render;
 pub mod sampler;
 pub mod sampling;
 pub mod scene;
+pub mod setup;
 pub mod shape;
 #[cfg(any(test, feature = "testing"))]
 pub mod testing;

@@ -98,10 +98,15 @@ impl Asset for IesProfile {
     }
 }
 
+impl From<ply::MeshData> for MeshData {
+    fn from(ply::MeshData { vertices, normals, uvs, colors, triangles }: ply::MeshData) -> Self {
+        Self { vertices, triangles, normals, uvs, colors }
+    }
+}
+
 impl Asset for MeshData {
     fn read(path: &Path) -> Result<(Self, Vec<Warning>), Error> {
-        let ply::MeshData { vertices, normals, uvs, colors, triangles } = read_ply(path)?;
-        Ok((Self { vertices, triangles, normals, uvs, colors }, Vec::new()))
+        Ok((read_ply(path)?.into(), Vec::new()))
     }
 
     fn bytes(&self) -> usize {

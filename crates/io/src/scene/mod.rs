@@ -3,6 +3,7 @@
 mod assets;
 mod explain;
 mod merge;
+mod model;
 mod nesting;
 pub mod ply;
 mod source;
@@ -12,9 +13,12 @@ mod toml;
 use std::path::Path;
 
 use eyebeam_core::desc::SceneDesc;
+use eyebeam_core::setup::Given;
 
 use crate::error::Error;
 use crate::warning::Warning;
+
+pub use model::{MODEL_FORMATS, ModelFormat, Up};
 
 /// A scene as it was read, with all the files that it names.
 #[derive(Clone, Debug)]
@@ -23,6 +27,17 @@ pub struct SceneFile {
     pub desc: SceneDesc,
     /// What is worth a word, in the order of the text.
     pub warnings: Vec<Warning>,
+    /// What it says of camera and light; a scene file says everything.
+    pub given: Given,
+}
+
+/// How scenes are read.
+#[derive(Clone, Copy, Debug, Default)]
+pub struct ReadOptions<'a> {
+    /// Settings from outside the file.
+    pub overrides: &'a [Override],
+    /// What is up in models that do not say.
+    pub up: Option<Up>,
 }
 
 /// A setting from outside the file, `key.key=value`: stronger than what the file says.
@@ -34,15 +49,26 @@ pub struct Override {
     pub value: String,
 }
 
-/// Reads and checks a scene file and all files that it names; `-` is standard input.
+/// Reads and checks a scene file or a [model](MODEL_FORMATS), and all files that it names; `-` is a scene file from standard input.
 ///
-/// Relative names are looked for beside the scene file that says them, and those in `overrides` or standard input in the
+/// Relative names are looked for beside the scene file that says them, and those in settings or standard input in the
 /// current folder.
 ///
 /// # Errors
 /// Everything that is wrong with it, or why it cannot be read.
 pub fn read(path: &Path, overrides: &[Override]) -> Result<SceneFile, Error> {
-    toml::read(source::Sources::load(path)?, overrides)
+    read_with(path, &ReadOptions { overrides, ..ReadOptions::default() })
+}
+
+/// As [`read`], with more to say.
+///
+/// # Errors
+/// Everything that is wrong with it, or why it cannot be read.
+pub fn read_with(path: &Path, options: &ReadOptions<'_>) -> Result<SceneFile, Error> {
+    match model::format_of(path) {
+        Some(format) => model::read(format, path, options),
+        None => toml::read(source::Sources::load(path)?, options.overrides),
+    }
 }
 
 /// Reads and checks a scene from text; `name` stands for the file in errors. It has no folder: it can

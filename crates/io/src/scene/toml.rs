@@ -8,6 +8,7 @@ use std::borrow::Cow;
 use std::ops::Range;
 
 use eyebeam_core::desc::SceneDesc;
+use eyebeam_core::setup::Given;
 use serde::Deserialize;
 use toml::Spanned;
 use toml::de::{DeTable, DeValue};
@@ -44,7 +45,7 @@ pub(super) fn read(mut sources: Sources, overrides: &[Override]) -> Result<Scene
     }
     let Reader { problems, warnings, .. } = reader;
     if problems.is_empty() {
-        Ok(SceneFile { desc, warnings: into_warnings(warnings) })
+        Ok(SceneFile { desc, warnings: into_warnings(warnings), given: Given::ALL })
     } else {
         Err(into_error(problems))
     }

@@ -74,7 +74,7 @@ file = \"ball.ply\"
 [[shape.mesh]]
 file = \"ball.ply\"
 ";
-    let SceneFile { desc, warnings } = read_in(&folder, text).unwrap();
+    let SceneFile { desc, warnings, .. } = read_in(&folder, text).unwrap();
     assert_eq!(warnings, []);
     let image = environment(&desc);
     assert_eq!((image.width(), image.height(), image.pixel(2, 1)), (4, 2, [2.0, 1.0, 1.0]));
@@ -222,7 +222,7 @@ fn a_picture_of_one_pixel() {
     write_rgb_file(folder.path().join("one.exr"), 1, 1, |_, _| (3.0_f32, 2.0_f32, 1.0_f32)).unwrap();
     let slide = "[[light.projector]]\nfile = \"one.exr\"\nposition = [0, 3, 3]\nlook_at = [0, 0, 0]";
     let text = format!("[environment.image]\nfile = \"one.exr\"\n{slide}\n[[shape.sphere]]\nradius = 1");
-    let SceneFile { desc, warnings } = read_in(&folder, &text).unwrap();
+    let SceneFile { desc, warnings, .. } = read_in(&folder, &text).unwrap();
     assert_eq!(warnings, []);
     let settings = Settings { width: 16, height: 16, spp: 16, ..Settings::from(&desc.render) };
     let scene = Scene::build(&desc).unwrap();

@@ -4,6 +4,7 @@ mod assets;
 mod errors;
 mod files;
 mod includes;
+mod models;
 mod robustness;
 mod schema;
 mod settings;

@@ -49,7 +49,7 @@ fn as_small_as_in_the_file_and_there_once() {
 [texture.exr.image]\nfile = \"a.exr\"
 [texture.hdr.image]\nfile = \"a.hdr\"
 ";
-    let SceneFile { desc, warnings } = read_in(&folder, text).unwrap();
+    let SceneFile { desc, warnings, .. } = read_in(&folder, text).unwrap();
     assert_eq!(warnings, []);
     for (name, bytes_per_pixel) in [("png", 3), ("jpg", 3), ("exr", 6), ("hdr", 12)] {
         let pixels = pixels(&desc, name);

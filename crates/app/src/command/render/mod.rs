@@ -34,7 +34,7 @@ pub(super) fn run(args: &RenderArgs) -> Result<(), Error> {
     let target = target(args)?;
     let mut phases = Phases::default();
     let clock = Instant::now();
-    let SceneFile { desc, warnings } = describe(args)?;
+    let SceneFile { desc, warnings, given: _ } = describe(args)?;
     let scene_hash = hash::scene_hash(&desc);
     phases.load = clock.elapsed().as_secs_f64();
 

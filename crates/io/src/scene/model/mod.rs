@@ -1,0 +1,100 @@
+//! Models: scenes of other programs, and meshes.
+//!
+//! A model becomes a [`SceneDesc`] whose meshes and pictures are loaded. It seldom has a camera or light;
+//! [`Given`] tells what it has, and [`setup`](eyebeam_core::setup) makes the rest.
+
+mod ply;
+mod up;
+
+use std::path::Path;
+
+use eyebeam_core::desc::{RenderDesc, SceneDesc};
+use eyebeam_core::light::{EnvironmentDesc, NoLight};
+use eyebeam_core::setup::Given;
+
+use crate::error::{Diagnostic, Error};
+use crate::scene::source::Sources;
+use crate::scene::{Override, ReadOptions, SceneFile, toml};
+use crate::warning::Warning;
+
+pub use up::Up;
+
+/// A kind of file that models are in.
+pub struct ModelFormat {
+    /// Its name.
+    pub name: &'static str,
+    /// How names of such files end, in lower case, without a dot.
+    pub endings: &'static [&'static str],
+    /// What is up in files that do not say; none if the format tells.
+    pub up: Option<Up>,
+    read: fn(&Path) -> Result<Model, Error>,
+}
+
+/// Every kind.
+pub const MODEL_FORMATS: &[ModelFormat] =
+    &[ModelFormat { name: "PLY", endings: &["ply"], up: Some(Up::Y), read: ply::read }];
+
+/// What a file holds.
+#[derive(Debug, Default)]
+struct Model {
+    /// Shapes, materials, textures, and maybe a camera and lights.
+    desc: SceneDesc,
+    given: Given,
+    /// What could not be kept.
+    warnings: Vec<Warning>,
+}
+
+impl Model {
+    /// Nothing yet, and no light.
+    fn new() -> Self {
+        let desc = SceneDesc { environment: EnvironmentDesc::None(NoLight::default()), ..SceneDesc::default() };
+        Self { desc, ..Self::default() }
+    }
+}
+
+/// The format of a file by the end of its name.
+pub(super) fn format_of(path: &Path) -> Option<&'static ModelFormat> {
+    let ending = path.extension()?.to_str()?.to_ascii_lowercase();
+    MODEL_FORMATS.iter().find(|format| format.endings.contains(&ending.as_str()))
+}
+
+/// Reads a model.
+///
+/// # Errors
+/// If it cannot be read, or a setting is not of `render`.
+pub(super) fn read(format: &ModelFormat, path: &Path, options: &ReadOptions<'_>) -> Result<SceneFile, Error> {
+    let render = render_settings(options.overrides)?;
+    let Model { mut desc, given, mut warnings } = (format.read)(path)?;
+    desc.render = render;
+    match (options.up, format.up) {
+        (Some(up), Some(_)) => up.turn(&mut desc),
+        (Some(_), None) => {
+            warnings.push(Warning::new(format!("{} files say what is up: `--up` is not used", format.name)))
+        }
+        (None, _) => {}
+    }
+    let problems = desc.check();
+    if problems.is_empty() {
+        return Ok(SceneFile { desc, warnings, given });
+    }
+    let diagnostic = |message, hint| Diagnostic {
+        message: format!("in `{}`: {message}", path.display()),
+        place: None,
+        hint,
+        unreadable: false,
+    };
+    Err(Error::Scene(problems.into_iter().map(|problem| diagnostic(problem.message, problem.hint)).collect()))
+}
+
+/// The settings that a model can have: those of the picture.
+fn render_settings(overrides: &[Override]) -> Result<RenderDesc, Error> {
+    if let Some(other) = overrides.iter().find(|setting| !setting.path.starts_with("render.")) {
+        return Err(Error::Scene(vec![Diagnostic {
+            message: format!("`-D {}` changes a scene file, and this is a model", other.path),
+            place: None,
+            hint: Some("of models only `render` can be changed".to_owned()),
+            unreadable: false,
+        }]));
+    }
+    Ok(toml::read(Sources::from_text("settings", "")?, overrides)?.desc.render)
+}
