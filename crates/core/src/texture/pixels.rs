@@ -137,7 +137,7 @@ impl Pixels {
     }
 
     /// Whether they are light already, and no signals.
-    pub(super) fn is_light(&self) -> bool {
+    pub fn is_light(&self) -> bool {
         matches!(self.samples, Samples::Half(_) | Samples::Float(_))
     }
 

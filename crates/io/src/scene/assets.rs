@@ -19,7 +19,7 @@ use crate::scene::textures;
 use crate::warning::Warning;
 
 /// No more files are read once those before take so much memory.
-const MAX_BYTES: u64 = 16 << 30;
+pub(super) const MAX_BYTES: u64 = 16 << 30;
 
 /// What is to be said about a file, where its name stands.
 pub(super) struct Note {

@@ -3,6 +3,7 @@
 //! A model becomes a [`SceneDesc`] whose meshes and pictures are loaded. It seldom has a camera or light;
 //! [`Given`] tells what it has, and [`setup`](eyebeam_core::setup) makes the rest.
 
+mod gltf;
 mod ply;
 mod up;
 
@@ -31,8 +32,10 @@ pub struct ModelFormat {
 }
 
 /// Every kind.
-pub const MODEL_FORMATS: &[ModelFormat] =
-    &[ModelFormat { name: "PLY", endings: &["ply"], up: Some(Up::Y), read: ply::read }];
+pub const MODEL_FORMATS: &[ModelFormat] = &[
+    ModelFormat { name: "glTF", endings: &["gltf", "glb"], up: None, read: gltf::read },
+    ModelFormat { name: "PLY", endings: &["ply"], up: Some(Up::Y), read: ply::read },
+];
 
 /// What a file holds.
 #[derive(Debug, Default)]

@@ -1,0 +1,37 @@
+//! Cameras: they look along −z, with +y upwards.
+
+use eyebeam_core::camera::{CameraDesc, OrthographicDesc};
+use glam::{DAffine3, DVec3};
+
+use crate::error::FileError;
+use crate::scene::model::Model;
+use crate::scene::model::gltf::accessor::missing;
+use crate::scene::model::gltf::document::{Document, Node};
+
+/// The model's camera, if it has none yet.
+pub(super) fn read(document: &Document, node: &Node, to_world: &DAffine3, model: &mut Model) -> Result<(), FileError> {
+    let Some(index) = node.camera.filter(|_| !model.given.camera) else { return Ok(()) };
+    let camera = document.cameras.get(index).ok_or_else(|| missing("camera", index))?;
+    let from = to_world.translation;
+    let direction = |axis: DVec3| (to_world.matrix3 * axis).normalize_or_zero();
+    let (ahead, up) = (direction(DVec3::NEG_Z), direction(DVec3::Y));
+    if ahead == DVec3::ZERO || up == DVec3::ZERO {
+        return Err(FileError::new(format!("camera {index} looks nowhere: its node has no size")));
+    }
+    let mut desc = CameraDesc {
+        look_from: from.as_vec3().into(),
+        look_at: (from + ahead * from.abs().max_element().max(1.0)).as_vec3().into(),
+        up: up.as_vec3().into(),
+        ..CameraDesc::default()
+    };
+    match (&camera.perspective, &camera.orthographic) {
+        (Some(perspective), _) => desc.vfov = Some(perspective.yfov.to_degrees()),
+        (None, Some(orthographic)) => {
+            desc.orthographic = Some(OrthographicDesc { height: 2.0 * orthographic.ymag.abs() });
+        }
+        (None, None) => return Err(FileError::new(format!("camera {index} is of no kind"))),
+    }
+    model.desc.camera = desc;
+    model.given.camera = true;
+    Ok(())
+}

@@ -1,0 +1,398 @@
+//! Materials of glTF as [`Principled`], which is what most of their extensions were made after.
+//!
+//! | glTF | principled |
+//! |---|---|
+//! | base colour, metallic, roughness | base_color, base_metalness, specular_roughness |
+//! | clearcoat | coat, without a normal map of its own |
+//! | sheen | fuzz, of the weight of its brightest channel |
+//! | transmission | transmission; a sheet (thin-walled) unless there is a volume |
+//! | volume | transmission_color at transmission_depth; the base colour tints only sheets |
+//! | specular, ior | specular_weight, specular_color up to 1, specular_ior |
+//! | iridescence | thin_film |
+//! | anisotropy | specular_roughness_anisotropy, not turned |
+//! | emissive, emissive_strength | emission |
+//! | normal texture | `normal-map` |
+//! | alphaMode MASK, BLEND | `mask` |
+//! | unlit | a lamp of this radiance |
+//!
+//! Occlusion is computed by light and not read. Both sides of a surface are seen, whatever `doubleSided` says.
+
+use std::collections::BTreeMap;
+
+use eyebeam_core::color::Rgb;
+use eyebeam_core::desc::SceneDesc;
+use eyebeam_core::material::{Emissive, Mask, MaterialDesc, NormalMap, Principled};
+use eyebeam_core::names::Name;
+use eyebeam_core::texture::{
+    Channel, ChannelOf, Color, Encoding, Interpolation, Invert, Multiply, Ramp, Scalar, Stop, TextureDesc, VertexColor,
+};
+
+use crate::scene::model::gltf::document::{Document, Material, TextureInfo};
+use crate::scene::model::gltf::extensions::{
+    Anisotropy, Clearcoat, EmissiveStrength, Ior, Iridescence, Sheen, Specular, SpecularGlossiness, Transmission,
+    Volume, get,
+};
+use crate::scene::model::gltf::texture::Pictures;
+use crate::warning::Warning;
+
+/// Makes materials where they are first used.
+pub(super) struct Materials<'a> {
+    pub(super) document: &'a Document,
+    pub(super) pictures: &'a Pictures,
+    /// The file's name.
+    pub(super) file: &'a str,
+    /// Names by the index of a material, and whether vertices have colours.
+    names: BTreeMap<(Option<usize>, bool), String>,
+}
+
+impl<'a> Materials<'a> {
+    pub(super) fn new(document: &'a Document, pictures: &'a Pictures, file: &'a str) -> Self {
+        Self { document, pictures, file, names: BTreeMap::new() }
+    }
+
+    /// The name of a material, of the default one if there is no index, that is in the scene now.
+    pub(super) fn name(
+        &mut self,
+        index: Option<usize>,
+        has_colors: bool,
+        desc: &mut SceneDesc,
+        warnings: &mut Vec<Warning>,
+    ) -> String {
+        let index = index.filter(|&i| i < self.document.materials.len());
+        if let Some(known) = self.names.get(&(index, has_colors)) {
+            return known.clone();
+        }
+        let default = Material::default();
+        let material = index.and_then(|i| self.document.materials.get(i)).unwrap_or(&default);
+        let mut name = if material.name.is_empty() { "material".to_owned() } else { material.name.clone() };
+        if desc.material.contains_key(&name) {
+            name = (2..).map(|n| format!("{name}-{n}")).find(|name| !desc.material.contains_key(name)).unwrap_or(name);
+        }
+        let count = warnings.len();
+        Maker { all: self, material, name: &name, has_colors, desc, warnings }.make();
+        for warning in warnings.iter_mut().skip(count) {
+            warning.message = format!("material `{name}`: {}", warning.message);
+        }
+        self.names.insert((index, has_colors), name.clone());
+        name
+    }
+}
+
+/// One material in the making.
+struct Maker<'m, 'a> {
+    all: &'m Materials<'a>,
+    material: &'m Material,
+    name: &'m str,
+    has_colors: bool,
+    desc: &'m mut SceneDesc,
+    warnings: &'m mut Vec<Warning>,
+}
+
+impl Maker<'_, '_> {
+    fn make(mut self) {
+        let Material { normal_texture, alpha_mode, extensions, .. } = self.material;
+        let (alpha, mut surface) = if extensions.contains_key("KHR_materials_unlit") {
+            let [color, alpha] = self.base_color();
+            let lamp = Emissive { radiance: color, albedo: Rgb::grey(0.0).into(), two_sided: true };
+            (alpha, MaterialDesc::Emissive(lamp))
+        } else {
+            let (alpha, principled) = self.principled();
+            (alpha, MaterialDesc::Principled(Box::new(principled)))
+        };
+        if let Some(info) = normal_texture
+            && let Some(map) = self.image(info, Encoding::Linear, false, "normal")
+        {
+            let of = self.part("surface", surface);
+            let strength = bounded(info.scale.unwrap_or(1.0), -100.0, 100.0);
+            surface = MaterialDesc::NormalMap(NormalMap { of, map: Color::Texture(map), strength });
+        }
+        if let Some(opacity) = self.opacity(alpha_mode.as_deref(), alpha) {
+            let of = self.part("opaque", surface);
+            surface = MaterialDesc::Mask(Mask { of, opacity });
+        }
+        self.desc.material.insert(self.name.to_owned(), surface);
+    }
+
+    /// A material that others are made of.
+    fn part(&mut self, part: &str, material: MaterialDesc) -> Name {
+        let name = format!("{}.{part}", self.name);
+        self.desc.material.insert(name.clone(), material);
+        Name::new(&name)
+    }
+
+    fn opacity(&mut self, mode: Option<&str>, alpha: Color) -> Option<Scalar> {
+        let alpha = scalar(alpha);
+        match mode {
+            Some("BLEND") => (alpha != Scalar::Number(1.0)).then_some(alpha),
+            Some("MASK") => {
+                let cutoff = self.material.alpha_cutoff.unwrap_or(0.5);
+                match alpha {
+                    Scalar::Number(alpha) => (alpha < cutoff).then_some(0.0.into()),
+                    Scalar::Texture(_) if cutoff <= 0.0 => None,
+                    input => {
+                        let stops = [(0.0, 0.0), (bounded(cutoff, 1e-6, 10.0), 1.0)];
+                        let stops = stops.map(|(at, grey)| Stop { at, color: Rgb::grey(grey) }).into();
+                        let ramp = Ramp { input, stops, interpolation: Interpolation::Constant };
+                        Some(Scalar::Texture(self.texture("cutoff", TextureDesc::Ramp(ramp))))
+                    }
+                }
+            }
+            _ => None,
+        }
+    }
+
+    /// With the alpha.
+    fn principled(&mut self) -> (Color, Principled) {
+        let pbr = &self.material.pbr_metallic_roughness;
+        let [base_color, alpha] = self.base_color();
+        let packed = pbr.metallic_roughness_texture.as_ref();
+        let mut p = Principled {
+            base_color,
+            base_metalness: self.channel(packed, Channel::Blue, pbr.metallic_factor.unwrap_or(1.0), "metalness"),
+            specular_roughness: self.channel(packed, Channel::Green, pbr.roughness_factor.unwrap_or(1.0), "roughness"),
+            ..Principled::default()
+        };
+        self.gloss(&mut p);
+        self.reflection(&mut p);
+        self.layers(&mut p);
+        self.transmission(&mut p);
+        self.emission(&mut p);
+        (alpha, p)
+    }
+
+    /// The colour and the alpha of the surface.
+    fn base_color(&mut self) -> [Color; 2] {
+        let old: Option<SpecularGlossiness> = self.extension("KHR_materials_pbrSpecularGlossiness");
+        let pbr = &self.material.pbr_metallic_roughness;
+        let (factor, info) = match &old {
+            Some(old) => (old.diffuse_factor, old.diffuse_texture.as_ref()),
+            None => (pbr.base_color_factor, pbr.base_color_texture.as_ref()),
+        };
+        let [r, g, b, a] = factor.unwrap_or([1.0; 4]);
+        let mut color = self.color(info, [r, g, b], Encoding::Auto, "base-color");
+        if self.has_colors {
+            let vertices =
+                self.texture("vertices", TextureDesc::VertexColor(VertexColor { otherwise: Rgb::grey(1.0) }));
+            color = self.product("base-color.painted", color, Color::Texture(vertices));
+        }
+        let uses_alpha = matches!(self.material.alpha_mode.as_deref(), Some("MASK" | "BLEND"));
+        let image = info.filter(|_| uses_alpha).and_then(|info| self.image(info, Encoding::Auto, true, "alpha"));
+        let factor = Color::from(Rgb::grey(bounded(a, 0.0, 1.0)));
+        let alpha = match image {
+            Some(image) => self.product("alpha.scaled", Color::Texture(image), factor),
+            None => factor,
+        };
+        [color, alpha]
+    }
+
+    /// `KHR_materials_pbrSpecularGlossiness`, the way of saying it before metals.
+    fn gloss(&mut self, p: &mut Principled) {
+        let Some(old): Option<SpecularGlossiness> = self.extension("KHR_materials_pbrSpecularGlossiness") else {
+            return;
+        };
+        let specular = old.specular_factor.unwrap_or([1.0; 3]).map(|c| bounded(c, 0.0, 1.0));
+        let brightest = specular.into_iter().fold(0.0, f32::max);
+        // The index whose reflectance straight on that is: F = ((n − 1) / (n + 1))².
+        let root = brightest.sqrt().min(0.5);
+        p.base_metalness = 0.0.into();
+        p.specular_ior = (1.0 + root) / (1.0 - root);
+        p.specular_color = Rgb(specular.map(|c| if brightest > 0.0 { c / brightest } else { 0.0 })).into();
+        let gloss = bounded(old.glossiness_factor.unwrap_or(1.0), 0.0, 1.0);
+        p.specular_roughness = match old.specular_glossiness_texture {
+            Some(info) => match self.image(&info, Encoding::Linear, true, "gloss") {
+                Some(alpha) => {
+                    let gloss = self.product("gloss.scaled", Color::Texture(alpha), Rgb::grey(gloss).into());
+                    Scalar::Texture(self.texture("roughness", TextureDesc::Invert(Invert { input: gloss })))
+                }
+                None => (1.0 - gloss).into(),
+            },
+            None => (1.0 - gloss).into(),
+        };
+        self.warn("specular and glossiness become a glossy matte surface, without the texture of the specular colour");
+    }
+
+    fn reflection(&mut self, p: &mut Principled) {
+        if let Some(Ior { ior }) = self.extension("KHR_materials_ior") {
+            let ior = ior.unwrap_or(1.5);
+            p.specular_ior = if ior == 0.0 { 3.0 } else { bounded(ior, 1.0, 3.0) };
+        }
+        if let Some(specular) = self.extension::<Specular>("KHR_materials_specular") {
+            let factor = bounded(specular.specular_factor.unwrap_or(1.0), 0.0, 1.0);
+            p.specular_weight = match specular.specular_texture {
+                Some(info) => match self.image(&info, Encoding::Auto, true, "specular") {
+                    Some(alpha) => {
+                        scalar(self.product("specular.scaled", Color::Texture(alpha), Rgb::grey(factor).into()))
+                    }
+                    None => factor.into(),
+                },
+                None => factor.into(),
+            };
+            let color = specular.specular_color_factor.unwrap_or([1.0; 3]);
+            p.specular_color =
+                self.color(specular.specular_color_texture.as_ref(), color, Encoding::Auto, "specular-color");
+        }
+        if let Some(anisotropy) = self.extension::<Anisotropy>("KHR_materials_anisotropy") {
+            let strength = bounded(anisotropy.anisotropy_strength, 0.0, 1.0);
+            // Across alpha stays, along it is alpha + (1 − alpha) strength².
+            let alpha = p.specular_roughness.number().map_or(0.25, |roughness| roughness * roughness);
+            let along = alpha + (1.0 - alpha) * strength * strength;
+            p.specular_roughness_anisotropy = (1.0 - alpha / along.max(1e-6)).into();
+            if p.specular_roughness.number().is_some() {
+                p.specular_roughness = along.sqrt().into();
+            }
+            if anisotropy.anisotropy_rotation != 0.0 || anisotropy.anisotropy_texture.is_some() {
+                self.warn("the direction of anisotropy is that of growing u everywhere");
+            }
+        }
+    }
+
+    fn layers(&mut self, p: &mut Principled) {
+        if let Some(coat) = self.extension::<Clearcoat>("KHR_materials_clearcoat") {
+            p.coat_weight = self.channel(coat.clearcoat_texture.as_ref(), Channel::Red, coat.clearcoat_factor, "coat");
+            let (texture, factor) = (coat.clearcoat_roughness_texture.as_ref(), coat.clearcoat_roughness_factor);
+            p.coat_roughness = self.channel(texture, Channel::Green, factor, "coat-roughness");
+            (p.coat_ior, p.coat_darkening) = (1.5, 0.0);
+            if coat.clearcoat_normal_texture.is_some() {
+                self.warn("the clear coat has the normals of what is under it");
+            }
+        }
+        if let Some(sheen) = self.extension::<Sheen>("KHR_materials_sheen") {
+            let brightest = sheen.sheen_color_factor.into_iter().fold(0.0, f32::max);
+            if brightest > 0.0 {
+                let color = sheen.sheen_color_factor.map(|c| c / brightest);
+                p.fuzz_weight = bounded(brightest, 0.0, 1.0).into();
+                p.fuzz_color = self.color(sheen.sheen_color_texture.as_ref(), color, Encoding::Auto, "sheen");
+                p.fuzz_roughness = match self.alpha(sheen.sheen_roughness_texture.as_ref(), "sheen-roughness") {
+                    Some(alpha) => {
+                        let factor = Rgb::grey(bounded(sheen.sheen_roughness_factor, 0.0, 1.0)).into();
+                        scalar(self.product("sheen-roughness.scaled", Color::Texture(alpha), factor))
+                    }
+                    None => bounded(sheen.sheen_roughness_factor, 0.0, 1.0).into(),
+                };
+            }
+        }
+        if let Some(film) = self.extension::<Iridescence>("KHR_materials_iridescence") {
+            p.thin_film_weight =
+                self.channel(film.iridescence_texture.as_ref(), Channel::Red, film.iridescence_factor, "film");
+            p.thin_film_ior = bounded(film.iridescence_ior.unwrap_or(1.3), 1.0, 5.0);
+            // Nanometres to micrometres.
+            let [least, most] =
+                [(film.iridescence_thickness_minimum, 100.0), (film.iridescence_thickness_maximum, 400.0)]
+                    .map(|(thickness, default)| bounded(thickness.unwrap_or(default) * 1e-3, 0.0, 2.0));
+            let info = film.iridescence_thickness_texture.as_ref();
+            p.thin_film_thickness = match self.channel(info, Channel::Green, 1.0, "film-thickness") {
+                Scalar::Number(_) => most.into(),
+                input => {
+                    let stops =
+                        [(0.0, least), (1.0, most)].map(|(at, grey)| Stop { at, color: Rgb::grey(grey) }).into();
+                    let ramp = Ramp { input, stops, interpolation: Interpolation::Linear };
+                    Scalar::Texture(self.texture("film-thickness.ramp", TextureDesc::Ramp(ramp)))
+                }
+            };
+        }
+    }
+
+    fn transmission(&mut self, p: &mut Principled) {
+        let Some(transmission) = self.extension::<Transmission>("KHR_materials_transmission") else { return };
+        let factor = transmission.transmission_factor;
+        p.transmission_weight =
+            self.channel(transmission.transmission_texture.as_ref(), Channel::Red, factor, "transmission");
+        let volume: Volume = self.extension("KHR_materials_volume").unwrap_or_default();
+        if volume.thickness_factor > 0.0 {
+            let distance = volume.attenuation_distance.filter(|d| d.is_finite() && *d > 0.0);
+            p.transmission_color =
+                Rgb(volume.attenuation_color.unwrap_or([1.0; 3]).map(|c| bounded(c, 0.0, 1.0))).into();
+            match distance {
+                Some(distance) => p.transmission_depth = distance,
+                None => p.transmission_color = p.base_color.clone(),
+            }
+        } else {
+            p.geometry_thin_walled = true;
+            p.transmission_color = p.base_color.clone();
+        }
+    }
+
+    fn emission(&mut self, p: &mut Principled) {
+        /// cd / m² of a radiance of 1.
+        const LUMINANCE: f32 = 203.0;
+        let factor = self.material.emissive_factor;
+        let brightest = factor.into_iter().filter(|c| c.is_finite()).fold(0.0, f32::max);
+        if brightest > 0.0 {
+            let strength: EmissiveStrength = self.extension("KHR_materials_emissive_strength").unwrap_or_default();
+            let luminance = LUMINANCE * brightest * strength.emissive_strength.unwrap_or(1.0);
+            p.emission_luminance = bounded(luminance, 0.0, 1e9);
+            let color = factor.map(|c| c / brightest);
+            p.emission_color = self.color(self.material.emissive_texture.as_ref(), color, Encoding::Auto, "emission");
+        }
+    }
+
+    fn extension<T: serde::de::DeserializeOwned>(&self, name: &str) -> Option<T> {
+        get(&self.material.extensions, name)
+    }
+
+    fn warn(&mut self, message: &str) {
+        self.warnings.push(Warning::new(message));
+    }
+
+    /// A texture of the material, by a name of its own.
+    fn texture(&mut self, part: &str, texture: TextureDesc) -> Name {
+        let name = format!("{}.{part}", self.name);
+        self.desc.texture.insert(name.clone(), texture);
+        Name::new(&name)
+    }
+
+    fn image(&mut self, info: &TextureInfo, encoding: Encoding, alpha: bool, part: &str) -> Option<Name> {
+        let Materials { document, pictures, file, .. } = *self.all;
+        let mut image = pictures.texture(document, info, encoding, file, self.warnings)?;
+        image.alpha = alpha;
+        Some(self.texture(&format!("{part}.picture"), TextureDesc::Image(image)))
+    }
+
+    fn alpha(&mut self, info: Option<&TextureInfo>, part: &str) -> Option<Name> {
+        info.and_then(|info| self.image(info, Encoding::Auto, true, part))
+    }
+
+    fn product(&mut self, part: &str, a: Color, b: Color) -> Color {
+        let is_one = |c: &Color| c.rgb() == Some(Rgb::grey(1.0));
+        if is_one(&b) {
+            return a;
+        }
+        if is_one(&a) {
+            return b;
+        }
+        Color::Texture(self.texture(part, TextureDesc::Multiply(Multiply { a, b })))
+    }
+
+    /// A picture times a factor, in 0..1; the factor if there is no picture.
+    fn color(&mut self, info: Option<&TextureInfo>, factor: [f32; 3], encoding: Encoding, part: &str) -> Color {
+        let factor = Color::from(Rgb(factor.map(|c| bounded(c, 0.0, 1.0))));
+        match info.and_then(|info| self.image(info, encoding, false, part)) {
+            Some(image) => self.product(part, Color::Texture(image), factor),
+            None => factor,
+        }
+    }
+
+    /// A channel of a picture of data times a factor, in 0..1; the factor if there is no picture.
+    fn channel(&mut self, info: Option<&TextureInfo>, channel: Channel, factor: f32, part: &str) -> Scalar {
+        let factor = bounded(factor, 0.0, 1.0);
+        let Some(image) = info.and_then(|info| self.image(info, Encoding::Linear, false, part)) else {
+            return factor.into();
+        };
+        let input = Color::Texture(image);
+        let channel = self.texture(part, TextureDesc::Channel(ChannelOf { input, channel }));
+        scalar(self.product(&format!("{part}.scaled"), Color::Texture(channel), Rgb::grey(factor).into()))
+    }
+}
+
+/// A grey as a number.
+fn scalar(color: Color) -> Scalar {
+    match color {
+        Color::Rgb(rgb) => Scalar::Number(rgb.0[1]),
+        Color::Texture(name) => Scalar::Texture(name),
+    }
+}
+
+/// In a range; what is no number is its lower end.
+fn bounded(number: f32, lo: f32, hi: f32) -> f32 {
+    if number.is_nan() { lo } else { number.clamp(lo, hi) }
+}

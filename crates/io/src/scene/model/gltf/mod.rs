@@ -1,0 +1,142 @@
+//! glTF 2.0 and GLB: what most programs of the field exchange scenes in.
+//!
+//! Khronos, glTF 2.0 Specification, 2021 (ISO/IEC 12113:2022). What is read, approximated and ignored is told in docs/formats/gltf.md.
+
+mod accessor;
+mod camera;
+mod container;
+mod document;
+mod extensions;
+mod light;
+mod material;
+mod mesh;
+mod node;
+mod texture;
+
+use std::collections::BTreeMap;
+use std::path::Path;
+use std::sync::Arc;
+
+use eyebeam_core::shape::MeshDesc;
+use glam::{DAffine3, DMat4};
+
+use self::accessor::{Buffers, missing};
+use self::container::Container;
+use self::document::{Document, Node};
+use self::material::Materials;
+use self::mesh::Pose;
+use self::texture::Pictures;
+use crate::error::{At, Error, FileError};
+use crate::file;
+use crate::scene::model::Model;
+use crate::warning::Warning;
+
+/// Triangles of all meshes where they stand.
+const MOST_TRIANGLES: usize = 100_000_000;
+
+pub(super) fn read(path: &Path) -> Result<Model, Error> {
+    let bytes = file::read(path)?;
+    let name = path.display().to_string();
+    let folder = path.parent().unwrap_or(Path::new(""));
+    read_bytes(&name, &bytes, folder).map_err(|e| e.of(&name))
+}
+
+fn read_bytes(name: &str, bytes: &[u8], folder: &Path) -> Result<Model, FileError> {
+    let Container { json, bytes } = Container::open(bytes)?;
+    let document: Document =
+        serde_json::from_slice(json).map_err(|e| FileError::new(e.to_string()).at(At::Line(e.line())))?;
+    let version = &document.asset.version;
+    if !version.starts_with("2.") || document.asset.min_version.as_ref().is_some_and(|least| least != "2.0") {
+        return Err(FileError::new(format!("this is glTF of version `{version}`")).hint("export it as glTF 2.0"));
+    }
+    let mut model = Model::new();
+    extensions::check(&document, &mut model.warnings)?;
+    let buffers = Buffers { document: &document, bytes: load(&document, bytes, folder)? };
+    let pictures = Pictures::read(&buffers, folder, &mut model.warnings);
+    let mut materials = Materials::new(&document, &pictures, name);
+    let placed = node::in_world(&document, document.scene.unwrap_or(0))?;
+    let in_world: BTreeMap<usize, DAffine3> = placed.iter().copied().collect();
+    let (mut triangles, mut skipped) = (0, 0);
+    for &(index, to_world) in &placed {
+        let Some(node) = document.nodes.get(index) else { continue };
+        camera::read(&document, node, &to_world, &mut model)?;
+        light::read(&document, node, &to_world, &mut model)?;
+        let Some(mesh) = node.mesh else { continue };
+        let mesh = document.meshes.get(mesh).ok_or_else(|| missing("mesh", mesh))?;
+        let joints = node.skin.map(|skin| joints(&buffers, skin, &in_world)).transpose()?;
+        let weights = if node.weights.is_empty() { &mesh.weights } else { &node.weights };
+        for primitive in &mesh.primitives {
+            let skinned = joints.as_deref().filter(|_| primitive.attributes.contains_key("JOINTS_0"));
+            let Some(data) = mesh::read(&buffers, primitive, &Pose { to_world, weights, joints: skinned })? else {
+                skipped += 1;
+                continue;
+            };
+            triangles += data.triangles.len();
+            if triangles > MOST_TRIANGLES {
+                return Err(FileError::new(format!("the model has more than {MOST_TRIANGLES} triangles")));
+            }
+            let has_colors = !data.colors.is_empty();
+            let material = materials.name(primitive.material, has_colors, &mut model.desc, &mut model.warnings);
+            model.desc.shape.mesh.push(MeshDesc {
+                file: Some(format!("{name}#node{index}")),
+                material: Some(material),
+                data: Some(Arc::new(data)),
+                ..MeshDesc::default()
+            });
+        }
+    }
+    if skipped > 0 {
+        model.warnings.push(Warning::new(format!("{skipped} sets of points or lines are left out")));
+    }
+    if !document.animations.is_empty() {
+        let count = document.animations.len();
+        model.warnings.push(Warning::new(format!("{count} animations are not played: all is as it rests")));
+    }
+    model.warnings.dedup();
+    Ok(model)
+}
+
+/// The bytes of all buffers; the first may be those behind the JSON.
+fn load(document: &Document, mut behind: Option<&[u8]>, folder: &Path) -> Result<Vec<Vec<u8>>, FileError> {
+    let mut buffers = Vec::new();
+    for (i, buffer) in document.buffers.iter().enumerate() {
+        let bytes = match (&buffer.uri, behind.take()) {
+            (Some(uri), _) => container::resolve(uri, folder)?,
+            (None, Some(bytes)) if i == 0 => bytes.to_vec(),
+            // Filled by an extension, if at all.
+            (None, _) => Vec::new(),
+        };
+        if bytes.len() < buffer.byte_length && !bytes.is_empty() {
+            let (has, wants) = (bytes.len(), buffer.byte_length);
+            return Err(FileError::new(format!("buffer {i} has {has} of {wants} bytes")));
+        }
+        buffers.push(bytes);
+    }
+    Ok(buffers)
+}
+
+/// From where the joints of a skin were when it was bound to where they are in the world.
+fn joints(
+    buffers: &Buffers<'_>,
+    index: usize,
+    in_world: &BTreeMap<usize, DAffine3>,
+) -> Result<Vec<DAffine3>, FileError> {
+    let skin = buffers.document.skins.get(index).ok_or_else(|| missing("skin", index))?;
+    let bound = skin.inverse_bind_matrices.map(|i| buffers.floats::<16>(i, 0.0)).transpose()?;
+    let joint = |(i, joint): (usize, &usize)| {
+        let to_world = *in_world.get(joint).ok_or_else(|| missing("joint", *joint))?;
+        let bound = match &bound {
+            Some(matrices) => matrices.get(i).ok_or_else(|| missing("inverse bind matrix", i))?.map(f64::from),
+            None => return Ok(to_world),
+        };
+        Ok(to_world * DAffine3::from_mat4(DMat4::from_cols_array(&bound)))
+    };
+    skin.joints.iter().enumerate().map(joint).collect()
+}
+
+impl Node {
+    /// The index that an extension says.
+    fn extension_index(&self, name: &str, key: &str) -> Option<usize> {
+        self.extensions.get(name)?.get(key)?.as_u64().map(|index| index as usize)
+    }
+}

@@ -1,0 +1,55 @@
+//! Where nodes are in the world.
+
+use glam::{DAffine3, DMat4, DQuat, DVec3};
+
+use crate::error::FileError;
+use crate::scene::model::gltf::accessor::missing;
+use crate::scene::model::gltf::document::{Document, Node};
+
+/// Nodes within each other.
+const MAX_DEPTH: usize = 1000;
+
+/// The nodes of a scene with their transforms, parents before children.
+///
+/// # Errors
+/// If a node does not exist, or has more than one parent.
+pub(super) fn in_world(document: &Document, scene: usize) -> Result<Vec<(usize, DAffine3)>, FileError> {
+    let roots = match document.scenes.get(scene) {
+        Some(scene) => scene.nodes.clone(),
+        // A file without scenes: all nodes without parents.
+        None => {
+            let is_child = |i: &usize| document.nodes.iter().any(|node| node.children.contains(i));
+            (0..document.nodes.len()).filter(|i| !is_child(i)).collect()
+        }
+    };
+    let mut seen = vec![false; document.nodes.len()];
+    let mut placed = Vec::new();
+    let mut open: Vec<_> = roots.into_iter().rev().map(|root| (root, DAffine3::IDENTITY, 0)).collect();
+    while let Some((index, parent, depth)) = open.pop() {
+        let node = document.nodes.get(index).ok_or_else(|| missing("node", index))?;
+        if seen.get(index).is_none_or(|&seen| seen) {
+            return Err(FileError::new(format!("node {index} is in more than one place, or within itself")));
+        }
+        if depth > MAX_DEPTH {
+            return Err(FileError::new(format!("node {index} is within more than {MAX_DEPTH} others")));
+        }
+        seen[index] = true;
+        let to_world = parent * local(node);
+        if !to_world.is_finite() {
+            return Err(FileError::new(format!("node {index} is nowhere: its transform is not finite")));
+        }
+        placed.push((index, to_world));
+        open.extend(node.children.iter().rev().map(|&child| (child, to_world, depth + 1)));
+    }
+    Ok(placed)
+}
+
+fn local(node: &Node) -> DAffine3 {
+    if let Some(matrix) = node.matrix {
+        return DAffine3::from_mat4(DMat4::from_cols_array(&matrix));
+    }
+    let rotation = DQuat::from_array(node.rotation.unwrap_or([0.0, 0.0, 0.0, 1.0]));
+    let rotation = if rotation.length_squared() > 0.0 { rotation.normalize() } else { DQuat::IDENTITY };
+    let scale = DVec3::from(node.scale.unwrap_or([1.0; 3]));
+    DAffine3::from_scale_rotation_translation(scale, rotation, node.translation.unwrap_or_default().into())
+}
