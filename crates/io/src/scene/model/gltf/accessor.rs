@@ -33,11 +33,6 @@ impl Buffers<'_> {
         })
     }
 
-    /// How many elements an accessor has.
-    pub(super) fn count(&self, index: usize) -> Result<usize, FileError> {
-        Ok(self.accessor(index)?.count)
-    }
-
     fn accessor(&self, index: usize) -> Result<&Accessor, FileError> {
         self.document.accessors.get(index).ok_or_else(|| missing("accessor", index))
     }

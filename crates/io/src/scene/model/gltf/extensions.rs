@@ -1,4 +1,6 @@
-//! Materials' extensions as their JSON has them, and which are read at all.
+//! Extensions as their JSON has them, and which are read at all.
+
+use std::collections::BTreeMap;
 
 use serde::Deserialize;
 use serde::de::DeserializeOwned;
@@ -9,6 +11,7 @@ use crate::warning::Warning;
 
 /// What is read, wholly or nearly.
 const READ: &[&str] = &[
+    "EXT_mesh_gpu_instancing",
     "EXT_texture_webp",
     "KHR_lights_punctual",
     "KHR_materials_anisotropy",
@@ -139,4 +142,11 @@ pub(super) struct SpecularGlossiness {
     pub(super) specular_factor: Option<[f32; 3]>,
     pub(super) glossiness_factor: Option<f32>,
     pub(super) specular_glossiness_texture: Option<TextureInfo>,
+}
+
+/// `EXT_mesh_gpu_instancing`
+#[derive(Debug, Default, Deserialize)]
+#[serde(default)]
+pub(super) struct Instancing {
+    pub(super) attributes: BTreeMap<String, usize>,
 }

@@ -65,9 +65,11 @@ fn read_bytes(name: &str, bytes: &[u8], folder: &Path) -> Result<Model, FileErro
         let mesh = document.meshes.get(mesh).ok_or_else(|| missing("mesh", mesh))?;
         let joints = node.skin.map(|skin| joints(&buffers, skin, &in_world)).transpose()?;
         let weights = if node.weights.is_empty() { &mesh.weights } else { &node.weights };
-        for primitive in &mesh.primitives {
+        let copies = node::copies(&buffers, node)?;
+        for (primitive, copy) in mesh.primitives.iter().flat_map(|p| copies.iter().map(move |copy| (p, copy))) {
             let skinned = joints.as_deref().filter(|_| primitive.attributes.contains_key("JOINTS_0"));
-            let Some(data) = mesh::read(&buffers, primitive, &Pose { to_world, weights, joints: skinned })? else {
+            let pose = Pose { to_world: to_world * *copy, weights, joints: skinned };
+            let Some(data) = mesh::read(&buffers, primitive, &pose)? else {
                 skipped += 1;
                 continue;
             };

@@ -1,10 +1,11 @@
 //! Where nodes are in the world.
 
-use glam::{DAffine3, DMat4, DQuat, DVec3};
+use glam::{DAffine3, DMat4, DQuat};
 
 use crate::error::FileError;
-use crate::scene::model::gltf::accessor::missing;
+use crate::scene::model::gltf::accessor::{Buffers, missing};
 use crate::scene::model::gltf::document::{Document, Node};
+use crate::scene::model::gltf::extensions::{Instancing, get};
 
 /// Nodes within each other.
 const MAX_DEPTH: usize = 1000;
@@ -48,8 +49,33 @@ fn local(node: &Node) -> DAffine3 {
     if let Some(matrix) = node.matrix {
         return DAffine3::from_mat4(DMat4::from_cols_array(&matrix));
     }
-    let rotation = DQuat::from_array(node.rotation.unwrap_or([0.0, 0.0, 0.0, 1.0]));
+    let rotation = node.rotation.unwrap_or([0.0, 0.0, 0.0, 1.0]);
+    transform(node.translation.unwrap_or_default(), rotation, node.scale.unwrap_or([1.0; 3]))
+}
+
+/// A scale, then a turn, then a move.
+fn transform(translation: [f64; 3], rotation: [f64; 4], scale: [f64; 3]) -> DAffine3 {
+    let rotation = DQuat::from_array(rotation);
     let rotation = if rotation.length_squared() > 0.0 { rotation.normalize() } else { DQuat::IDENTITY };
-    let scale = DVec3::from(node.scale.unwrap_or([1.0; 3]));
-    DAffine3::from_scale_rotation_translation(scale, rotation, node.translation.unwrap_or_default().into())
+    DAffine3::from_scale_rotation_translation(scale.into(), rotation, translation.into())
+}
+
+/// Where the copies of a node's mesh are in its space: `EXT_mesh_gpu_instancing`; one that rests if there is no such thing.
+pub(super) fn copies(buffers: &Buffers<'_>, node: &Node) -> Result<Vec<DAffine3>, FileError> {
+    let Some(Instancing { attributes }) = get(&node.extensions, "EXT_mesh_gpu_instancing") else {
+        return Ok(vec![DAffine3::IDENTITY]);
+    };
+    let [moves, scales] = [("TRANSLATION", 0.0), ("SCALE", 1.0)]
+        .map(|(name, rest)| attributes.get(name).map(|&i| buffers.floats::<3>(i, rest)).transpose());
+    let (moves, scales) = (moves?, scales?);
+    let turns = attributes.get("ROTATION").map(|&i| buffers.floats::<4>(i, 0.0)).transpose()?;
+    let lengths = [moves.as_ref().map(Vec::len), scales.as_ref().map(Vec::len), turns.as_ref().map(Vec::len)];
+    let count = lengths.into_iter().flatten().min().unwrap_or_default();
+    let copy = |i: usize| {
+        let vector =
+            |list: &Option<Vec<[f32; 3]>>, rest| list.as_ref().and_then(|l| l.get(i)).copied().unwrap_or([rest; 3]);
+        let turn = turns.as_ref().and_then(|l| l.get(i)).copied().unwrap_or([0.0, 0.0, 0.0, 1.0]);
+        transform(vector(&moves, 0.0).map(f64::from), turn.map(f64::from), vector(&scales, 1.0).map(f64::from))
+    };
+    Ok((0..count).map(copy).collect())
 }

@@ -1,7 +1,9 @@
 //! Models: what other programs write.
 
+mod gltf;
+
 use std::fs;
-use std::path::Path;
+use std::path::{Path, PathBuf};
 
 use eyebeam_core::material::MaterialDesc;
 use eyebeam_core::setup::Given;
@@ -64,4 +66,25 @@ fn of_models_only_the_picture_can_be_changed() {
 #[test]
 fn a_model_that_is_missing_is_said() {
     assert!(read(Path::new("nowhere.ply"), &[]).unwrap_err().to_string().contains("cannot read `nowhere.ply`"));
+}
+
+/// Other people's files: below `EYEBEAM_CORPUS`, or beside the repository.
+fn corpus() -> PathBuf {
+    let beside = || Path::new(env!("CARGO_MANIFEST_DIR")).join("../../../shared/scenes");
+    std::env::var_os("EYEBEAM_CORPUS").map_or_else(beside, PathBuf::from)
+}
+
+/// All files in a folder and below whose names end in one of these; none if there is no folder.
+fn files(folder: &Path, endings: &[&str]) -> Option<Vec<PathBuf>> {
+    let mut found = Vec::new();
+    for entry in fs::read_dir(folder).ok()? {
+        let path = entry.ok()?.path();
+        if path.is_dir() {
+            found.extend(files(&path, endings).unwrap_or_default());
+        } else if path.extension().is_some_and(|e| endings.iter().any(|ending| e.eq_ignore_ascii_case(ending))) {
+            found.push(path);
+        }
+    }
+    found.sort();
+    Some(found)
 }

@@ -1,0 +1,333 @@
+//! glTF: files made here, each with one thing in it, and what is wrong with them.
+
+use std::fs;
+use std::path::Path;
+
+use eyebeam_core::material::{MaterialDesc, Principled};
+use eyebeam_core::setup::Given;
+use eyebeam_core::shape::MeshData;
+use eyebeam_core::texture::{Color, TextureDesc};
+use eyebeam_io::Error;
+use eyebeam_io::scene::{SceneFile, read};
+use serde_json::{Value, json};
+use tempfile::TempDir;
+
+/// A file of one upright triangle, with its numbers behind the JSON: indices at 0, positions at 8, uvs at 44, four joints a vertex at 68,
+/// four weights at 80.
+fn triangle() -> Value {
+    let view = |at: usize, length: usize| json!({ "buffer": 0, "byteOffset": at, "byteLength": length });
+    json!({
+        "asset": { "version": "2.0" },
+        "scene": 0,
+        "scenes": [{ "nodes": [0] }],
+        "nodes": [{ "mesh": 0 }],
+        "meshes": [{ "primitives": [{ "attributes": { "POSITION": 1, "TEXCOORD_0": 2 }, "indices": 0, "material": 0 }] }],
+        "materials": [{ "name": "paint" }],
+        "accessors": [
+            { "bufferView": 0, "componentType": 5123, "count": 3, "type": "SCALAR" },
+            { "bufferView": 1, "componentType": 5126, "count": 3, "type": "VEC3" },
+            { "bufferView": 2, "componentType": 5126, "count": 3, "type": "VEC2" },
+            { "bufferView": 3, "componentType": 5121, "count": 3, "type": "VEC4" },
+            { "bufferView": 4, "componentType": 5121, "normalized": true, "count": 3, "type": "VEC4" },
+        ],
+        "bufferViews": [view(0, 6), view(8, 36), view(44, 24), view(68, 12), view(80, 12)],
+        "buffers": [{ "byteLength": 92 }],
+    })
+}
+
+fn numbers() -> Vec<u8> {
+    let mut bytes: Vec<u8> = [0_u16, 1, 2, 0].iter().flat_map(|i| i.to_le_bytes()).collect();
+    let floats = [0.0_f32, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0, 2.0, 0.0, 0.0, 1.0, 1.0, 1.0, 0.0, 0.0];
+    bytes.extend(floats.iter().flat_map(|f| f.to_le_bytes()));
+    bytes.extend([0, 0, 0, 0, 0, 0, 0, 0, 1, 0, 0, 0]);
+    bytes.extend([255, 0, 0, 0, 255, 0, 0, 0, 255, 0, 0, 0]);
+    bytes
+}
+
+fn glb(document: &Value) -> Vec<u8> {
+    let mut json = document.to_string().into_bytes();
+    json.resize(json.len().next_multiple_of(4), b' ');
+    let numbers = numbers();
+    let length = 12 + 8 + json.len() + 8 + numbers.len();
+    let words = |words: &[u32]| words.iter().flat_map(|w| w.to_le_bytes()).collect::<Vec<u8>>();
+    [
+        words(&[0x4654_6c67, 2, length as u32, json.len() as u32, 0x4e4f_534a]),
+        json,
+        words(&[numbers.len() as u32, 0x004e_4942]),
+        numbers,
+    ]
+    .concat()
+}
+
+fn read_bytes(bytes: &[u8]) -> Result<SceneFile, Error> {
+    let folder = TempDir::new().unwrap();
+    let path = folder.path().join("a.glb");
+    fs::write(&path, bytes).unwrap();
+    read(&path, &[])
+}
+
+fn model(document: &Value) -> SceneFile {
+    read_bytes(&glb(document)).unwrap()
+}
+
+fn error(document: &Value) -> String {
+    read_bytes(&glb(document)).unwrap_err().to_string().lines().next().unwrap().to_owned()
+}
+
+/// The same with other values, by JSON pointers.
+fn with(changes: &[(&str, Value)]) -> Value {
+    let mut document = triangle();
+    for (pointer, value) in changes {
+        let (parent, key) = pointer.rsplit_once('/').unwrap();
+        match document.pointer_mut(parent).unwrap() {
+            Value::Array(list) => {
+                let index: usize = key.parse().unwrap();
+                list.resize(list.len().max(index + 1), Value::Null);
+                list[index] = value.clone();
+            }
+            object => object[key] = value.clone(),
+        }
+    }
+    document
+}
+
+fn mesh(file: &SceneFile) -> &MeshData {
+    file.desc.shape.mesh[0].data.as_ref().unwrap()
+}
+
+fn principled(file: &SceneFile) -> &Principled {
+    match &file.desc.material["paint"] {
+        MaterialDesc::Principled(principled) => principled,
+        other => panic!("{other:?}"),
+    }
+}
+
+#[test]
+fn a_mesh_stands_where_its_nodes_say() {
+    let file = model(&triangle());
+    assert_eq!((file.given, &file.warnings), (Given::default(), &vec![]));
+    assert_eq!(mesh(&file).vertices, [[0.0, 0.0, 0.0], [1.0, 0.0, 0.0], [0.0, 2.0, 0.0]]);
+    assert_eq!(mesh(&file).triangles, [[0, 1, 2]]);
+    // Pictures hang down from v = 0.
+    assert_eq!(mesh(&file).uvs, [[0.0, 0.0], [1.0, 0.0], [0.0, 1.0]]);
+    let half_turn = json!([0.0, 0.0, 1.0, 0.0]);
+    let nodes = json!([{ "children": [1], "rotation": half_turn }, { "mesh": 0, "translation": [1, 0, 3], "scale": [1, 2, 1] }]);
+    let file = model(&with(&[("/nodes", nodes)]));
+    assert_eq!(mesh(&file).vertices.map_near(), [[-1.0, 0.0, 3.0], [-2.0, 0.0, 3.0], [-1.0, -4.0, 3.0]]);
+}
+
+trait Near {
+    fn map_near(&self) -> Vec<[f32; 3]>;
+}
+
+impl Near for Vec<[f32; 3]> {
+    fn map_near(&self) -> Vec<[f32; 3]> {
+        self.iter().map(|v| v.map(|c| (c * 1e4).round() / 1e4 + 0.0)).collect()
+    }
+}
+
+#[test]
+fn mirrored_triangles_are_turned_round() {
+    let file = model(&with(&[("/nodes/0/scale", json!([-1, 1, 1]))]));
+    assert_eq!(mesh(&file).triangles, [[0, 2, 1]]);
+    assert_eq!(mesh(&file).vertices[1], [-1.0, 0.0, 0.0]);
+}
+
+#[test]
+fn strips_fans_and_lists_without_indices() {
+    let primitive = |mode: u32| json!({ "attributes": { "POSITION": 1 }, "mode": mode });
+    for (mode, count) in [(4, 1), (5, 1), (6, 1)] {
+        let file = model(&with(&[("/meshes/0/primitives/0", primitive(mode))]));
+        assert_eq!(mesh(&file).triangles, vec![[0, 1, 2]; count]);
+    }
+    let file = model(&with(&[("/meshes/0/primitives/1", primitive(1))]));
+    assert_eq!(file.desc.shape.mesh.len(), 1);
+    assert_eq!(file.warnings[0].message, "1 sets of points or lines are left out");
+}
+
+#[test]
+fn joints_and_targets_pose_it() {
+    let attributes = json!({ "POSITION": 1, "JOINTS_0": 3, "WEIGHTS_0": 4 });
+    let skinned = [
+        ("/meshes/0/primitives/0/attributes", attributes),
+        ("/skins", json!([{ "joints": [1, 2] }])),
+        ("/nodes", json!([{ "mesh": 0, "skin": 0, "translation": [9, 9, 9] }, {}, { "translation": [0, 0, 5] }])),
+        ("/scenes/0/nodes", json!([0, 1, 2])),
+    ];
+    // The node of a skinned mesh does not move it: its joints do.
+    assert_eq!(mesh(&model(&with(&skinned))).vertices, [[0.0, 0.0, 0.0], [1.0, 0.0, 0.0], [0.0, 2.0, 5.0]]);
+    let targets = [("/meshes/0/primitives/0/targets", json!([{ "POSITION": 1 }])), ("/meshes/0/weights", json!([0.5]))];
+    assert_eq!(mesh(&model(&with(&targets))).vertices[2], [0.0, 3.0, 0.0]);
+}
+
+#[test]
+fn instances_are_copies() {
+    let extension = json!({ "EXT_mesh_gpu_instancing": { "attributes": { "TRANSLATION": 1 } } });
+    let file =
+        model(&with(&[("/nodes/0/extensions", extension), ("/extensionsUsed", json!(["EXT_mesh_gpu_instancing"]))]));
+    assert_eq!((file.desc.shape.mesh.len(), file.warnings.len()), (3, 0));
+    assert_eq!(file.desc.shape.mesh[2].data.as_ref().unwrap().vertices[0], [0.0, 2.0, 0.0]);
+}
+
+#[test]
+fn cameras_and_lights_are_given() {
+    let lights =
+        json!({ "KHR_lights_punctual": { "lights": [{ "type": "point", "intensity": 683.0, "color": [1, 0.5, 0] }] } });
+    let file = model(&with(&[
+        ("/nodes/1", json!({ "camera": 0, "translation": [0, 1, 5] })),
+        ("/nodes/2", json!({ "translation": [0, 3, 0], "extensions": { "KHR_lights_punctual": { "light": 0 } } })),
+        ("/scenes/0/nodes", json!([0, 1, 2])),
+        ("/cameras", json!([{ "type": "perspective", "perspective": { "yfov": 0.5, "znear": 0.1 } }])),
+        ("/extensions", lights),
+    ]));
+    assert_eq!(file.given, Given::ALL);
+    let camera = &file.desc.camera;
+    assert_eq!(
+        (camera.look_from, camera.look_at, camera.vfov),
+        ([0.0, 1.0, 5.0], [0.0, 1.0, 0.0], Some(0.5_f32.to_degrees()))
+    );
+    let light = &file.desc.light.point[0];
+    assert_eq!((light.position, light.intensity.0), ([0.0, 3.0, 0.0], [1.0, 0.5, 0.0]));
+}
+
+#[test]
+fn materials_become_principled() {
+    let file = model(&with(&[(
+        "/materials/0",
+        json!({ "name": "paint", "emissiveFactor": [1, 0.5, 0],
+            "pbrMetallicRoughness": { "baseColorFactor": [0.5, 0.25, 1, 1], "metallicFactor": 0.25, "roughnessFactor": 0.75 },
+            "extensions": {
+                "KHR_materials_clearcoat": { "clearcoatFactor": 0.5, "clearcoatRoughnessFactor": 0.125 },
+                "KHR_materials_emissive_strength": { "emissiveStrength": 2 },
+                "KHR_materials_ior": { "ior": 1.75 },
+                "KHR_materials_iridescence": { "iridescenceFactor": 1, "iridescenceThicknessMaximum": 500 },
+                "KHR_materials_sheen": { "sheenColorFactor": [0.5, 0.25, 0], "sheenRoughnessFactor": 0.5 },
+                "KHR_materials_transmission": { "transmissionFactor": 0.5 },
+                "KHR_materials_volume": { "thicknessFactor": 1, "attenuationDistance": 3, "attenuationColor": [1, 0.5, 0.25] } } }),
+    )]));
+    let p = principled(&file);
+    let rgb = |color: &Color| color.rgb().unwrap().0;
+    assert_eq!((rgb(&p.base_color), p.specular_ior), ([0.5, 0.25, 1.0], 1.75));
+    assert_eq!((p.base_metalness.number(), p.specular_roughness.number()), (Some(0.25), Some(0.75)));
+    assert_eq!((p.coat_weight.number(), p.coat_roughness.number()), (Some(0.5), Some(0.125)));
+    assert_eq!((p.emission_luminance, rgb(&p.emission_color)), (406.0, [1.0, 0.5, 0.0]));
+    assert_eq!((p.thin_film_weight.number(), p.thin_film_thickness.number()), (Some(1.0), Some(0.5)));
+    assert_eq!((p.fuzz_weight.number(), rgb(&p.fuzz_color)), (Some(0.5), [1.0, 0.5, 0.0]));
+    assert_eq!((p.transmission_weight.number(), p.transmission_depth, p.geometry_thin_walled), (Some(0.5), 3.0, false));
+    assert_eq!(rgb(&p.transmission_color), [1.0, 0.5, 0.25]);
+}
+
+#[test]
+fn alpha_is_a_mask_and_unlit_a_lamp() {
+    let paint = |mode: &str| json!({ "name": "paint", "alphaMode": mode, "pbrMetallicRoughness": { "baseColorFactor": [1, 1, 1, 0.25] } });
+    for (mode, opacity) in [("OPAQUE", None), ("BLEND", Some(0.25)), ("MASK", Some(0.0))] {
+        let file = model(&with(&[("/materials/0", paint(mode))]));
+        match (&file.desc.material["paint"], opacity) {
+            (MaterialDesc::Principled(_), None) => {}
+            (MaterialDesc::Mask(mask), Some(_)) => {
+                assert_eq!((mask.of.name(), mask.opacity.number()), ("paint.opaque", opacity));
+            }
+            other => panic!("{mode}: {other:?}"),
+        }
+    }
+    let unlit = json!({ "name": "paint", "extensions": { "KHR_materials_unlit": {} } });
+    assert!(matches!(model(&with(&[("/materials/0", unlit)])).desc.material["paint"], MaterialDesc::Emissive(_)));
+}
+
+#[test]
+fn pictures_are_read_from_data_and_missing_ones_told_of() {
+    // One red pixel.
+    let png = "iVBORw0KGgoAAAANSUhEUgAAAAEAAAABCAIAAACQd1PeAAAADElEQVR4nGP4z8AAAAMBAQDJ/pLvAAAAAElFTkSuQmCC";
+    let changes = |uri: String| {
+        with(&[
+            ("/images", json!([{ "uri": uri }])),
+            ("/textures", json!([{ "source": 0 }])),
+            (
+                "/materials/0/pbrMetallicRoughness",
+                json!({ "baseColorTexture": { "index": 0 }, "metallicRoughnessTexture": { "index": 0 } }),
+            ),
+        ])
+    };
+    let file = model(&changes(format!("data:image/png;base64,{png}")));
+    assert_eq!(file.warnings, []);
+    let p = principled(&file);
+    let Color::Texture(name) = &p.base_color else { panic!("{:?}", p.base_color) };
+    assert!(matches!(&file.desc.texture[name.name()], TextureDesc::Image(image) if image.pixels.is_some()));
+    assert_eq!(p.specular_roughness.number(), None);
+    let file = model(&changes("nowhere%20at%20all.png".to_owned()));
+    assert!(file.warnings[0].message.contains("`nowhere%20at%20all.png`: cannot be read"), "{}", file.warnings[0]);
+    assert_eq!(principled(&file).base_color.rgb().unwrap().0, [1.0; 3]);
+    let file = model(&changes("../../etc/passwd".to_owned()));
+    assert!(file.warnings[0].message.contains("is outside of the model's folder"), "{}", file.warnings[0]);
+}
+
+#[test]
+fn what_is_wrong_is_said() {
+    let cases: &[(&str, Value, &str)] = &[
+        ("/asset/version", json!("1.0"), "this is glTF of version `1.0`"),
+        ("/extensionsRequired", json!(["ACME_x"]), "the model needs the extension ACME_x, which is not read"),
+        ("/nodes/0/children", json!([0]), "node 0 is in more than one place, or within itself"),
+        ("/nodes/0/mesh", json!(7), "there is no mesh 7"),
+        ("/scenes/0/nodes", json!([3]), "there is no node 3"),
+        ("/nodes/0/translation", json!([1e300, 0, 0]), "vertex 0 is"),
+        ("/accessors/0/count", json!(4), "accessor 0 of 4 elements reaches beyond buffer view 0"),
+        ("/accessors/0/byteOffset", json!(2), "accessor 0 of 3 elements reaches beyond buffer view 0"),
+        ("/accessors/1/count", json!(2), "there are 3 TEXCOORD_0 for 2 vertices"),
+        ("/accessors/1/type", json!("VEC9"), "accessor 1 is of the type `VEC9`, which does not exist"),
+        ("/accessors/1/componentType", json!(1), "accessor 1 has numbers of the type 1, which does not exist"),
+        ("/bufferViews/1/byteOffset", json!(80), "buffer view 1 reaches beyond the 92 bytes of buffer 0"),
+        ("/bufferViews/1/buffer", json!(2), "there is no buffer 2"),
+        ("/buffers/0/byteLength", json!(1000), "buffer 0 has 92 of 1000 bytes"),
+        ("/buffers/0/uri", json!("../x.bin"), "`../x.bin` is outside of the model's folder"),
+        ("/meshes/0/primitives/0/mode", json!(9), "the mode 9 of a mesh does not exist"),
+    ];
+    for (pointer, value, expected) in cases {
+        let error = error(&with(&[(pointer, value.clone())]));
+        assert!(error.contains(expected), "{pointer}: {error}");
+    }
+}
+
+#[test]
+fn pieces_and_flipped_bytes_do_no_harm() {
+    let whole = glb(&triangle());
+    for length in 0..whole.len() {
+        let _ = read_bytes(&whole[..length]).is_ok();
+    }
+    let mut state = 1_u64;
+    for _ in 0..2000 {
+        let mut bytes = whole.clone();
+        for _ in 0..4 {
+            state = state.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
+            let at = (state >> 33) as usize % bytes.len();
+            bytes[at] ^= (state >> 20) as u8;
+        }
+        let _ = read_bytes(&bytes).is_ok();
+    }
+    assert!(read_bytes(&whole).is_ok());
+}
+
+/// Every file of the corpus is read, or a sentence says why not.
+#[test]
+fn the_corpus_is_read_or_refused_with_a_reason() {
+    let root = super::corpus();
+    let (Some(models), Some(bad)) =
+        (super::files(&root.join("gltf"), &["gltf", "glb"]), super::files(&root.join("bad"), &["gltf", "glb"]))
+    else {
+        println!("not tested: there is no corpus; EYEBEAM_CORPUS tells where it is");
+        return;
+    };
+    assert!(models.len() > 40 && bad.len() > 20);
+    for path in models {
+        let compressed =
+            |path: &Path| ["Draco", "Meshopt", "pirate"].iter().any(|part| path.to_string_lossy().contains(part));
+        match read(&path, &[]) {
+            Ok(file) => assert!(!file.desc.shape.mesh.is_empty(), "{}", path.display()),
+            Err(e) => assert!(compressed(&path) && e.to_string().contains("compression"), "{}: {e}", path.display()),
+        }
+    }
+    for path in bad {
+        if let Err(e) = read(&path, &[]) {
+            assert!(e.to_string().starts_with("error: "), "{}: {e}", path.display());
+        }
+    }
+}
