@@ -68,7 +68,7 @@ impl Image {
     /// the middles of pixels. Black if it has none.
     pub fn bilinear(&self, place: Vec2, wrap: Wrap) -> Spectrum {
         let pixel = |x: usize, y: usize| Spectrum::from_rgb(self.pixels[y * self.width as usize + x]);
-        wrap.bilinear([self.width, self.height], place, pixel)
+        bilinear([self.width, self.height], [wrap; 2], place, pixel)
     }
 
     /// Replaces the pixel in column `x` of row `y`.
@@ -109,34 +109,6 @@ pub enum Wrap {
 }
 
 impl Wrap {
-    /// A picture of a size at a place, each coordinate 0..1 from the left and from the top: interpolated in both directions
-    /// between the middles of pixels, which `pixel` tells by column and row. Black if there are none.
-    #[inline]
-    pub(crate) fn bilinear(self, size: [u32; 2], place: Vec2, pixel: impl Fn(usize, usize) -> Spectrum) -> Spectrum {
-        let [width, height] = size.map(i64::from);
-        if width * height == 0 {
-            return Spectrum::BLACK;
-        }
-        // In pixels from the middle of the first one.
-        let at = place * Vec2::new(width as f32, height as f32) - 0.5;
-        let (first, rest) = (at.floor(), at - at.floor());
-        let [x0, x1] = [0, 1].map(|step| self.index(first.x as i64 + step, width));
-        let [y0, y1] = [0, 1].map(|step| self.index(first.y as i64 + step, height));
-        let in_row = |y: usize| pixel(x0, y).lerp(pixel(x1, y), rest.x);
-        in_row(y0).lerp(in_row(y1), rest.y)
-    }
-
-    /// The same, of the pixel that the place lies in.
-    #[inline]
-    pub(crate) fn nearest(self, size: [u32; 2], place: Vec2, pixel: impl Fn(usize, usize) -> Spectrum) -> Spectrum {
-        let [width, height] = size.map(i64::from);
-        if width * height == 0 {
-            return Spectrum::BLACK;
-        }
-        let at = (place * Vec2::new(width as f32, height as f32)).floor();
-        pixel(self.index(at.x as i64, width), self.index(at.y as i64, height))
-    }
-
     /// The pixel that stands for pixel `i` in a row of `n`.
     #[inline]
     pub(crate) fn index(self, i: i64, n: i64) -> usize {
@@ -153,4 +125,43 @@ impl Wrap {
         };
         within as usize
     }
+}
+
+/// A picture of a size at a place, each coordinate 0..1 from the left and from the top: interpolated in both directions
+/// between the middles of pixels, which `pixel` tells by column and row. Black if there are none. Beyond the edges at the sides and
+/// those above and below lies what `wrap` says.
+#[inline]
+pub(crate) fn bilinear(
+    size: [u32; 2],
+    wrap: [Wrap; 2],
+    place: Vec2,
+    pixel: impl Fn(usize, usize) -> Spectrum,
+) -> Spectrum {
+    let [width, height] = size.map(i64::from);
+    if width * height == 0 {
+        return Spectrum::BLACK;
+    }
+    // In pixels from the middle of the first one.
+    let at = place * Vec2::new(width as f32, height as f32) - 0.5;
+    let (first, rest) = (at.floor(), at - at.floor());
+    let [x0, x1] = [0, 1].map(|step| wrap[0].index(first.x as i64 + step, width));
+    let [y0, y1] = [0, 1].map(|step| wrap[1].index(first.y as i64 + step, height));
+    let in_row = |y: usize| pixel(x0, y).lerp(pixel(x1, y), rest.x);
+    in_row(y0).lerp(in_row(y1), rest.y)
+}
+
+/// The same, of the pixel that the place lies in.
+#[inline]
+pub(crate) fn nearest(
+    size: [u32; 2],
+    wrap: [Wrap; 2],
+    place: Vec2,
+    pixel: impl Fn(usize, usize) -> Spectrum,
+) -> Spectrum {
+    let [width, height] = size.map(i64::from);
+    if width * height == 0 {
+        return Spectrum::BLACK;
+    }
+    let at = (place * Vec2::new(width as f32, height as f32)).floor();
+    pixel(wrap[0].index(at.x as i64, width), wrap[1].index(at.y as i64, height))
 }

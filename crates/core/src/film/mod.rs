@@ -15,6 +15,7 @@ pub use aov::{Aov, Channel, FirstHit, Ids, Values, channels};
 pub use detail::{FilmOptions, PixelDetail};
 pub use filter::{BlackmanHarris, BoxFilter, Filter, FilterDesc, FilterSample, Gaussian, Mitchell, Tent};
 pub use image::{Image, Wrap};
+pub(crate) use image::{bilinear, nearest};
 pub use seen::Seen;
 pub use tile::{PixelMut, PixelSum, Tile};
 

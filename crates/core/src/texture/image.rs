@@ -44,6 +44,9 @@ pub struct ImageTexture {
     /// What lies beyond its edges.
     #[serde(default)]
     pub wrap: Wrap,
+    /// The same above and below alone; as at the sides if absent.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub wrap_v: Option<Wrap>,
     /// Its alpha as a grey instead of its colour; white if it has none.
     #[serde(default)]
     pub alpha: bool,
@@ -66,6 +69,7 @@ impl ImageTexture {
             encoding: Encoding::default(),
             filter: Filter::default(),
             wrap: Wrap::default(),
+            wrap_v: None,
             alpha: false,
             triplanar: false,
             mapping: Mapping::default(),
@@ -120,7 +124,8 @@ impl ImageTexture {
 
     fn look_up(&self, place: Vec3) -> Spectrum {
         let Some(pixels) = &self.pixels else { return Spectrum::BLACK };
-        let Self { encoding, filter, wrap, alpha, .. } = *self;
+        let Self { encoding, filter, alpha, .. } = *self;
+        let wrap = [self.wrap, self.wrap_v.unwrap_or(self.wrap)];
         pixels.at(Vec2::new(place.x, 1.0 - place.y), Lookup { wrap, filter, encoding, alpha })
     }
 }
@@ -160,6 +165,10 @@ mod tests {
         }
         assert_eq!(color(&four(Wrap::Mirror), -0.25, 0.75), [1.0, 0.0, 0.0]);
         assert_eq!(color(&four(Wrap::Mirror), 1.75, 0.75), [1.0, 0.0, 0.0]);
+        // To the left like the right end, above like the upper row.
+        let both = ImageTexture { wrap_v: Some(Wrap::Clamp), ..four(Wrap::Repeat) };
+        assert_eq!(color(&both, -0.25, 1.25), color(&both, 0.75, 0.75));
+        assert_ne!(color(&both, -0.25, 1.25), color(&four(Wrap::Repeat), -0.25, 1.25));
         for wrap in [Wrap::Repeat, Wrap::Mirror, Wrap::Clamp] {
             for filter in [Filter::Bilinear, Filter::Nearest] {
                 let far = color(&ImageTexture { filter, ..four(wrap) }, f32::MAX, f32::MIN);

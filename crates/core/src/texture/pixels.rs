@@ -12,7 +12,7 @@ use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 use crate::color::{Spectrum, srgb_decode};
-use crate::film::{Image, Wrap};
+use crate::film::{Image, Wrap, bilinear, nearest};
 use crate::math::half_to_f32;
 
 /// A picture: row by row from the top left, the channels of a pixel side by side.
@@ -97,7 +97,8 @@ pub enum Filter {
 /// How a picture is looked up.
 #[derive(Clone, Copy, Debug, Default)]
 pub(super) struct Lookup {
-    pub(super) wrap: Wrap,
+    /// At the sides, above and below.
+    pub(super) wrap: [Wrap; 2],
     pub(super) filter: Filter,
     pub(super) encoding: Encoding,
     /// Alpha, and not the colour.
@@ -185,8 +186,8 @@ impl Pixels {
         };
         let size = [self.width, self.height];
         match lookup.filter {
-            Filter::Bilinear => lookup.wrap.bilinear(size, place, pixel),
-            Filter::Nearest => lookup.wrap.nearest(size, place, pixel),
+            Filter::Bilinear => bilinear(size, lookup.wrap, place, pixel),
+            Filter::Nearest => nearest(size, lookup.wrap, place, pixel),
         }
     }
 }

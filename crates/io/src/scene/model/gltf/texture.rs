@@ -78,10 +78,9 @@ impl Pictures {
             image.encoding = encoding;
         }
         let sampler = texture.sampler.and_then(|i| document.samplers.get(i));
-        let wraps = sampler.map_or([Wrap::Repeat; 2], |s| [wrap(s.wrap_s), wrap(s.wrap_t)]);
-        image.wrap = wraps[0];
-        if wraps[0] != wraps[1] {
-            warnings.push(Warning::new(format!("texture {} wraps both ways as it does along u", info.index)));
+        if let Some(sampler) = sampler {
+            image.wrap = wrap(sampler.wrap_s);
+            image.wrap_v = Some(wrap(sampler.wrap_t)).filter(|&v| v != image.wrap);
         }
         if sampler.and_then(|s| s.mag_filter) == Some(NEAREST) {
             image.filter = Filter::Nearest;
