@@ -38,6 +38,10 @@ pub struct ReadOptions<'a> {
     pub overrides: &'a [Override],
     /// What is up in models that do not say.
     pub up: Option<Up>,
+    /// The animation that poses a model, by its name or its number from 0; it is as it rests if none is said.
+    pub animation: Option<&'a str>,
+    /// When, seconds from its start.
+    pub at: f32,
 }
 
 /// A setting from outside the file, `key.key=value`: stronger than what the file says.

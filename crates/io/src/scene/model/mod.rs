@@ -28,7 +28,7 @@ pub struct ModelFormat {
     pub endings: &'static [&'static str],
     /// What is up in files that do not say; none if the format tells.
     pub up: Option<Up>,
-    read: fn(&Path) -> Result<Model, Error>,
+    read: fn(&Path, &ReadOptions<'_>) -> Result<Model, Error>,
 }
 
 /// Every kind.
@@ -67,7 +67,7 @@ pub(super) fn format_of(path: &Path) -> Option<&'static ModelFormat> {
 /// If it cannot be read, or a setting is not of `render`.
 pub(super) fn read(format: &ModelFormat, path: &Path, options: &ReadOptions<'_>) -> Result<SceneFile, Error> {
     let render = render_settings(options.overrides)?;
-    let Model { mut desc, given, mut warnings } = (format.read)(path)?;
+    let Model { mut desc, given, mut warnings } = (format.read)(path, options)?;
     desc.render = render;
     match (options.up, format.up) {
         (Some(up), Some(_)) => up.turn(&mut desc),

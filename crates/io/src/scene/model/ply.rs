@@ -10,9 +10,9 @@ use eyebeam_core::texture::{Color, TextureDesc, VertexColor};
 
 use crate::error::Error;
 use crate::scene::model::Model;
-use crate::scene::ply;
+use crate::scene::{ReadOptions, ply};
 
-pub(super) fn read(path: &Path) -> Result<Model, Error> {
+pub(super) fn read(path: &Path, _: &ReadOptions<'_>) -> Result<Model, Error> {
     let mut model = Model::new();
     let data = MeshData::from(ply::read_ply(path)?);
     let mut mesh = MeshDesc { file: Some(path.display().to_string()), ..MeshDesc::default() };

@@ -8,7 +8,7 @@ use eyebeam_core::setup::Given;
 use eyebeam_core::shape::MeshData;
 use eyebeam_core::texture::{Color, TextureDesc};
 use eyebeam_io::Error;
-use eyebeam_io::scene::{SceneFile, read};
+use eyebeam_io::scene::{ReadOptions, SceneFile, read, read_with};
 use serde_json::{Value, json};
 use tempfile::TempDir;
 
@@ -60,10 +60,14 @@ fn glb(document: &Value) -> Vec<u8> {
 }
 
 fn read_bytes(bytes: &[u8]) -> Result<SceneFile, Error> {
+    read_as(bytes, &ReadOptions::default())
+}
+
+fn read_as(bytes: &[u8], options: &ReadOptions<'_>) -> Result<SceneFile, Error> {
     let folder = TempDir::new().unwrap();
     let path = folder.path().join("a.glb");
     fs::write(&path, bytes).unwrap();
-    read(&path, &[])
+    read_with(&path, options)
 }
 
 fn model(document: &Value) -> SceneFile {
@@ -158,6 +162,37 @@ fn joints_and_targets_pose_it() {
     assert_eq!(mesh(&model(&with(&skinned))).vertices, [[0.0, 0.0, 0.0], [1.0, 0.0, 0.0], [0.0, 2.0, 5.0]]);
     let targets = [("/meshes/0/primitives/0/targets", json!([{ "POSITION": 1 }])), ("/meshes/0/weights", json!([0.5]))];
     assert_eq!(mesh(&model(&with(&targets))).vertices[2], [0.0, 3.0, 0.0]);
+}
+
+/// Keys at 0, 1 and 2 seconds, whose numbers are those of the vertices: (0, 0, 0), (1, 0, 0), (0, 2, 0).
+#[test]
+fn animations_move_nodes() {
+    let document = |interpolation: &str| {
+        with(&[
+            (
+                "/animations",
+                json!([{ "name": "walk", "samplers": [{ "input": 5, "output": 1, "interpolation": interpolation }],
+                "channels": [{ "sampler": 0, "target": { "node": 0, "path": "translation" } }] }]),
+            ),
+            ("/accessors/5", json!({ "bufferView": 5, "componentType": 5123, "count": 3, "type": "SCALAR" })),
+            ("/bufferViews/5", json!({ "buffer": 0, "byteOffset": 0, "byteLength": 6 })),
+        ])
+    };
+    let place = |interpolation: &str, at: f32| {
+        let options = ReadOptions { animation: Some("walk"), at, ..ReadOptions::default() };
+        mesh(&read_as(&glb(&document(interpolation)), &options).unwrap()).vertices[0]
+    };
+    assert_eq!(place("LINEAR", 0.25), [0.25, 0.0, 0.0]);
+    assert_eq!(place("LINEAR", 1.5), [0.5, 1.0, 0.0]);
+    assert_eq!(place("STEP", 1.5), [1.0, 0.0, 0.0]);
+    assert_eq!([place("LINEAR", -1.0), place("LINEAR", 9.0)], [[0.0, 0.0, 0.0], [0.0, 2.0, 0.0]]);
+    let rests = model(&document("LINEAR"));
+    assert_eq!(rests.warnings[0].message, "of 1 animations none is chosen: all is as it rests");
+    let options = ReadOptions { animation: Some("run"), ..ReadOptions::default() };
+    let error = read_as(&glb(&document("LINEAR")), &options).unwrap_err().to_string();
+    assert!(error.contains("there is no animation `run`") && error.contains("it has 0 `walk`"), "{error}");
+    let error = read_as(&glb(&document("CUBICSPLINE")), &ReadOptions { animation: Some("0"), ..options }).unwrap_err();
+    assert!(error.to_string().contains("an animation moves nodes by what is no vector"), "{error}");
 }
 
 #[test]

@@ -12,7 +12,7 @@ const MOST_ZEROS: usize = 1 << 24;
 pub(super) struct Buffers<'a> {
     pub(super) document: &'a Document,
     /// Bytes of each buffer.
-    pub(super) bytes: Vec<Vec<u8>>,
+    pub(super) bytes: &'a [Vec<u8>],
 }
 
 impl Buffers<'_> {
@@ -43,6 +43,13 @@ impl Buffers<'_> {
         let component = Component::of(accessor.component_type, index)?;
         let float = |bytes: &[u8]| component.float(bytes, accessor.normalized);
         self.elements(index, rest, float)
+    }
+
+    /// All numbers, one after the other.
+    pub(super) fn flat(&self, index: usize) -> Result<Vec<f32>, FileError> {
+        let size = components(&self.accessor(index)?.kind, index)?;
+        let elements = self.floats::<16>(index, 0.0)?;
+        Ok(elements.iter().flat_map(|element| element.iter().take(size)).copied().collect())
     }
 
     /// Elements of N whole numbers.
@@ -206,7 +213,7 @@ mod tests {
 
     fn read<const N: usize>(json: &str, bytes: &[u8]) -> Result<Vec<[f32; N]>, FileError> {
         let document: Document = serde_json::from_str(json).unwrap();
-        Buffers { document: &document, bytes: vec![bytes.to_vec()] }.floats(0, 9.0)
+        Buffers { document: &document, bytes: &[bytes.to_vec()] }.floats(0, 9.0)
     }
 
     #[test]

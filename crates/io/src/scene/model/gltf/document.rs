@@ -28,7 +28,7 @@ pub(super) struct Document {
     pub(super) images: Vec<Picture>,
     pub(super) samplers: Vec<Sampler>,
     pub(super) cameras: Vec<Camera>,
-    pub(super) animations: Vec<Value>,
+    pub(super) animations: Vec<Animation>,
 }
 
 #[derive(Debug, Default, Deserialize)]
@@ -202,6 +202,37 @@ pub(super) struct Sampler {
     pub(super) mag_filter: Option<u32>,
     pub(super) wrap_s: Option<u32>,
     pub(super) wrap_t: Option<u32>,
+}
+
+#[derive(Debug, Default, Deserialize)]
+#[serde(default)]
+pub(super) struct Animation {
+    pub(super) name: String,
+    pub(super) channels: Vec<AnimationChannel>,
+    pub(super) samplers: Vec<AnimationSampler>,
+}
+
+#[derive(Debug, Default, Deserialize)]
+#[serde(default)]
+pub(super) struct AnimationChannel {
+    pub(super) sampler: usize,
+    pub(super) target: AnimationTarget,
+}
+
+#[derive(Debug, Default, Deserialize)]
+#[serde(default)]
+pub(super) struct AnimationTarget {
+    pub(super) node: Option<usize>,
+    pub(super) path: String,
+}
+
+#[derive(Debug, Default, Deserialize)]
+#[serde(default)]
+pub(super) struct AnimationSampler {
+    pub(super) input: usize,
+    pub(super) output: usize,
+    /// Even mixes if absent.
+    pub(super) interpolation: Option<String>,
 }
 
 #[derive(Debug, Default, Deserialize)]

@@ -3,6 +3,7 @@
 //! Khronos, glTF 2.0 Specification, 2021 (ISO/IEC 12113:2022). What is read, approximated and ignored is told in docs/formats/gltf.md.
 
 mod accessor;
+mod animation;
 mod camera;
 mod container;
 mod document;
@@ -28,22 +29,23 @@ use self::mesh::Pose;
 use self::texture::Pictures;
 use crate::error::{At, Error, FileError};
 use crate::file;
+use crate::scene::ReadOptions;
 use crate::scene::model::Model;
 use crate::warning::Warning;
 
 /// Triangles of all meshes where they stand.
 const MOST_TRIANGLES: usize = 100_000_000;
 
-pub(super) fn read(path: &Path) -> Result<Model, Error> {
+pub(super) fn read(path: &Path, options: &ReadOptions<'_>) -> Result<Model, Error> {
     let bytes = file::read(path)?;
     let name = path.display().to_string();
     let folder = path.parent().unwrap_or(Path::new(""));
-    read_bytes(&name, &bytes, folder).map_err(|e| e.of(&name))
+    read_bytes(&name, &bytes, folder, options).map_err(|e| e.of(&name))
 }
 
-fn read_bytes(name: &str, bytes: &[u8], folder: &Path) -> Result<Model, FileError> {
+fn read_bytes(name: &str, bytes: &[u8], folder: &Path, options: &ReadOptions<'_>) -> Result<Model, FileError> {
     let Container { json, bytes } = Container::open(bytes)?;
-    let document: Document =
+    let mut document: Document =
         serde_json::from_slice(json).map_err(|e| FileError::new(e.to_string()).at(At::Line(e.line())))?;
     let version = &document.asset.version;
     if !version.starts_with("2.") || document.asset.min_version.as_ref().is_some_and(|least| least != "2.0") {
@@ -51,7 +53,9 @@ fn read_bytes(name: &str, bytes: &[u8], folder: &Path) -> Result<Model, FileErro
     }
     let mut model = Model::new();
     extensions::check(&document, &mut model.warnings)?;
-    let buffers = Buffers { document: &document, bytes: load(&document, bytes, folder)? };
+    let bytes = load(&document, bytes, folder)?;
+    pose(&mut document, &bytes, options, &mut model.warnings)?;
+    let buffers = Buffers { document: &document, bytes: &bytes };
     let pictures = Pictures::read(&buffers, folder, &mut model.warnings);
     let mut materials = Materials::new(&document, &pictures, name);
     let placed = node::in_world(&document, document.scene.unwrap_or(0))?;
@@ -90,12 +94,30 @@ fn read_bytes(name: &str, bytes: &[u8], folder: &Path) -> Result<Model, FileErro
     if skipped > 0 {
         model.warnings.push(Warning::new(format!("{skipped} sets of points or lines are left out")));
     }
-    if !document.animations.is_empty() {
-        let count = document.animations.len();
-        model.warnings.push(Warning::new(format!("{count} animations are not played: all is as it rests")));
-    }
     model.warnings.dedup();
     Ok(model)
+}
+
+/// Moves nodes to where an animation has them; of one that nobody asked for there is a warning.
+fn pose(
+    document: &mut Document,
+    bytes: &[Vec<u8>],
+    options: &ReadOptions<'_>,
+    warnings: &mut Vec<Warning>,
+) -> Result<(), FileError> {
+    let Some(name) = options.animation else {
+        if let [first, ..] = &document.animations[..] {
+            let count = document.animations.len();
+            let message = format!("of {count} animations none is chosen: all is as it rests");
+            let hint = Some(format!("`--animation \"{}\" --at 0.5` poses it", first.name));
+            warnings.push(Warning { hint, ..Warning::new(message) });
+        }
+        return Ok(());
+    };
+    let animation = animation::find(document, name)?;
+    let changes = animation::sample(&Buffers { document, bytes }, animation, options.at)?;
+    animation::apply(document, changes);
+    Ok(())
 }
 
 /// The bytes of all buffers; the first may be those behind the JSON.
