@@ -186,7 +186,6 @@ pub(super) struct TextureTransform {
 pub(super) struct Texture {
     pub(super) sampler: Option<usize>,
     pub(super) source: Option<usize>,
-    pub(super) extensions: Extensions,
 }
 
 #[derive(Debug, Default, Deserialize)]

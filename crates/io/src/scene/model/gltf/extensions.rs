@@ -12,7 +12,6 @@ use crate::warning::Warning;
 /// What is read, wholly or nearly.
 const READ: &[&str] = &[
     "EXT_mesh_gpu_instancing",
-    "EXT_texture_webp",
     "KHR_lights_punctual",
     "KHR_materials_anisotropy",
     "KHR_materials_clearcoat",

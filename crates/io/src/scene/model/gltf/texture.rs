@@ -25,7 +25,7 @@ pub(super) struct Pictures(BTreeMap<usize, Arc<Pixels>>);
 impl Pictures {
     /// Decodes all at the same time.
     pub(super) fn read(buffers: &Buffers<'_>, folder: &Path, warnings: &mut Vec<Warning>) -> Self {
-        let mut sources: Vec<_> = buffers.document.textures.iter().filter_map(source).collect();
+        let mut sources: Vec<_> = buffers.document.textures.iter().filter_map(|texture| texture.source).collect();
         sources.sort_unstable();
         sources.dedup();
         let mut taken = 0;
@@ -71,7 +71,11 @@ impl Pictures {
         warnings: &mut Vec<Warning>,
     ) -> Option<ImageTexture> {
         let texture = document.textures.get(info.index)?;
-        let index = source(texture)?;
+        let Some(index) = texture.source else {
+            warnings
+                .push(Warning::new(format!("texture {} is left out: no picture of it is a PNG or JPEG", info.index)));
+            return None;
+        };
         let pixels = self.0.get(&index)?;
         let mut image = ImageTexture::new(&format!("{file}#picture{index}"), Some(pixels.clone()));
         if !pixels.is_light() {
@@ -126,12 +130,6 @@ fn mapping(transform: &TextureTransform) -> Option<Mapping> {
         offset: [x + v * sin, 1.0 - y - v * cos, 0.0],
         ..Mapping::default()
     })
-}
-
-/// The picture of a texture: of those that extensions offer, one that can be read.
-fn source(texture: &crate::scene::model::gltf::document::Texture) -> Option<usize> {
-    let webp = texture.extensions.get("EXT_texture_webp").and_then(|e| e.get("source")?.as_u64());
-    texture.source.or(webp.map(|index| index as usize))
 }
 
 fn bytes(buffers: &Buffers<'_>, folder: &Path, index: usize) -> Result<Vec<u8>, FileError> {
