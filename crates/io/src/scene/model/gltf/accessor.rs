@@ -2,8 +2,12 @@
 //!
 //! Khronos, glTF 2.0 Specification, 2021, §3.6. Signed normalised integers c become max(c / (2ᵇ⁻¹ − 1), −1), unsigned ones c / (2ᵇ − 1).
 
+use std::collections::BTreeMap;
+
 use crate::error::FileError;
 use crate::scene::model::gltf::document::{Accessor, Document, SparsePart};
+use crate::scene::model::gltf::extensions::get;
+use crate::scene::model::gltf::meshopt::Compressed;
 
 /// Without a buffer an accessor is all zeros: of no more than these.
 const MOST_ZEROS: usize = 1 << 24;
@@ -13,17 +17,33 @@ pub(super) struct Buffers<'a> {
     pub(super) document: &'a Document,
     /// Bytes of each buffer.
     pub(super) bytes: &'a [Vec<u8>],
+    /// Bytes of the buffer views that were compressed.
+    decoded: BTreeMap<usize, Vec<u8>>,
 }
 
-impl Buffers<'_> {
+impl<'a> Buffers<'a> {
+    /// Those of a file, of whose views all that are compressed are decoded.
+    pub(super) fn new(document: &'a Document, bytes: &'a [Vec<u8>]) -> Result<Self, FileError> {
+        let compressed =
+            document.buffer_views.iter().enumerate().filter_map(|(index, view)| {
+                Some((index, get::<Compressed>(&view.extensions, "EXT_meshopt_compression")?))
+            });
+        let decode = |(index, part): (usize, Compressed)| {
+            let code = bytes.get(part.buffer).and_then(|bytes| bytes.get(part.byte_offset..)?.get(..part.byte_length));
+            let code = code.ok_or_else(|| FileError::new("it reaches beyond its buffer"));
+            let decoded = code.and_then(|code| part.decode(code));
+            let of = |e: FileError| FileError { message: format!("buffer view {index}: {}", e.message), ..e };
+            Ok((index, decoded.map_err(of)?))
+        };
+        let decoded = compressed.map(decode).collect::<Result<_, FileError>>()?;
+        Ok(Self { document, bytes, decoded })
+    }
+
     /// Bytes of a buffer view.
     pub(super) fn view(&self, index: usize) -> Result<&[u8], FileError> {
         let view = self.document.buffer_views.get(index).ok_or_else(|| missing("buffer view", index))?;
-        if let Some(name) = view.extensions.keys().find(|name| name.contains("compression")) {
-            let hint = "export the model without mesh compression";
-            return Err(
-                FileError::new(format!("buffer view {index} needs the extension {name}, which is not read")).hint(hint)
-            );
+        if let Some(decoded) = self.decoded.get(&index) {
+            return Ok(decoded);
         }
         let bytes = self.bytes.get(view.buffer).ok_or_else(|| missing("buffer", view.buffer))?;
         let range = bytes.get(view.byte_offset..).and_then(|rest| rest.get(..view.byte_length));
@@ -213,7 +233,7 @@ mod tests {
 
     fn read<const N: usize>(json: &str, bytes: &[u8]) -> Result<Vec<[f32; N]>, FileError> {
         let document: Document = serde_json::from_str(json).unwrap();
-        Buffers { document: &document, bytes: &[bytes.to_vec()] }.floats(0, 9.0)
+        Buffers::new(&document, &[bytes.to_vec()]).unwrap().floats(0, 9.0)
     }
 
     #[test]

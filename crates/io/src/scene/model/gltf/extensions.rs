@@ -12,6 +12,7 @@ use crate::warning::Warning;
 /// What is read, wholly or nearly.
 const READ: &[&str] = &[
     "EXT_mesh_gpu_instancing",
+    "EXT_meshopt_compression",
     "KHR_lights_punctual",
     "KHR_materials_anisotropy",
     "KHR_materials_clearcoat",
@@ -30,7 +31,7 @@ const READ: &[&str] = &[
 
 /// Without these a mesh may still be read, from what the file has for those who do not know them; where it has nothing, that is
 /// an error of the mesh.
-const MAYBE: &[&str] = &["KHR_draco_mesh_compression", "EXT_meshopt_compression"];
+const MAYBE: &[&str] = &["KHR_draco_mesh_compression"];
 
 /// Refuses what the file cannot be read without, and notes what is ignored.
 pub(super) fn check(document: &Document, warnings: &mut Vec<Warning>) -> Result<(), FileError> {

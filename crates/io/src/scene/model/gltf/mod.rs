@@ -11,6 +11,7 @@ mod extensions;
 mod light;
 mod material;
 mod mesh;
+mod meshopt;
 mod node;
 mod texture;
 
@@ -55,7 +56,7 @@ fn read_bytes(name: &str, bytes: &[u8], folder: &Path, options: &ReadOptions<'_>
     extensions::check(&document, &mut model.warnings)?;
     let bytes = load(&document, bytes, folder)?;
     pose(&mut document, &bytes, options, &mut model.warnings)?;
-    let buffers = Buffers { document: &document, bytes: &bytes };
+    let buffers = Buffers::new(&document, &bytes)?;
     let pictures = Pictures::read(&buffers, folder, &mut model.warnings);
     let mut materials = Materials::new(&document, &pictures, name);
     let placed = node::in_world(&document, document.scene.unwrap_or(0))?;
@@ -115,7 +116,7 @@ fn pose(
         return Ok(());
     };
     let animation = animation::find(document, name)?;
-    let changes = animation::sample(&Buffers { document, bytes }, animation, options.at)?;
+    let changes = animation::sample(&Buffers::new(document, bytes)?, animation, options.at)?;
     animation::apply(document, changes);
     Ok(())
 }
