@@ -119,6 +119,13 @@ gallery:
 	cargo build --release --locked
 	python3 scenes/gallery.py --eyebeam target/release/eyebeam
 
+# Other people's models with no options, beside their authors' screenshots: a page in target/thumbnails, to be looked at.
+.PHONY: thumbnails
+EYEBEAM_CORPUS ?= ../shared/scenes
+thumbnails:
+	cargo build --release --locked
+	python3 scenes/thumbnails.py $(EYEBEAM_CORPUS)/gltf --eyebeam target/release/eyebeam
+
 # What scenes/generate.py writes: meshes, and scenes that are long lists.
 meshes:
 	python3 scenes/generate.py
