@@ -16,6 +16,7 @@ const READ: &[&str] = &[
     "KHR_lights_punctual",
     "KHR_materials_anisotropy",
     "KHR_materials_clearcoat",
+    "KHR_materials_diffuse_transmission",
     "KHR_materials_emissive_strength",
     "KHR_materials_ior",
     "KHR_materials_iridescence",
@@ -77,6 +78,16 @@ pub(super) struct Sheen {
 pub(super) struct Transmission {
     pub(super) transmission_factor: f32,
     pub(super) transmission_texture: Option<TextureInfo>,
+}
+
+/// `KHR_materials_diffuse_transmission`
+#[derive(Debug, Default, Deserialize)]
+#[serde(rename_all = "camelCase", default)]
+pub(super) struct Leaf {
+    pub(super) diffuse_transmission_factor: f32,
+    pub(super) diffuse_transmission_texture: Option<TextureInfo>,
+    pub(super) diffuse_transmission_color_factor: Option<[f32; 3]>,
+    pub(super) diffuse_transmission_color_texture: Option<TextureInfo>,
 }
 
 /// `KHR_materials_volume`

@@ -11,6 +11,7 @@
 //! | iridescence | thin_film |
 //! | anisotropy | specular_roughness_anisotropy, not turned |
 //! | emissive, emissive_strength | emission |
+//! | diffuse transmission | mixed with `diffuse-transmission`, which has no gloss |
 //! | normal texture | `normal-map` |
 //! | alphaMode MASK, BLEND | `mask` |
 //! | unlit | a lamp of this radiance |
@@ -21,7 +22,7 @@ use std::collections::BTreeMap;
 
 use eyebeam_core::color::Rgb;
 use eyebeam_core::desc::SceneDesc;
-use eyebeam_core::material::{Emissive, Mask, MaterialDesc, NormalMap, Principled};
+use eyebeam_core::material::{DiffuseTransmission, Emissive, Mask, MaterialDesc, Mix, NormalMap, Principled};
 use eyebeam_core::names::Name;
 use eyebeam_core::texture::{
     Channel, ChannelOf, Color, Encoding, Interpolation, Invert, Multiply, Ramp, Scalar, Stop, TextureDesc, VertexColor,
@@ -29,7 +30,7 @@ use eyebeam_core::texture::{
 
 use crate::scene::model::gltf::document::{Document, Material, TextureInfo};
 use crate::scene::model::gltf::extensions::{
-    Anisotropy, Clearcoat, EmissiveStrength, Ior, Iridescence, Sheen, Specular, SpecularGlossiness, Transmission,
+    Anisotropy, Clearcoat, EmissiveStrength, Ior, Iridescence, Leaf, Sheen, Specular, SpecularGlossiness, Transmission,
     Volume, get,
 };
 use crate::scene::model::gltf::texture::Pictures;
@@ -99,6 +100,17 @@ impl Maker<'_, '_> {
             let (alpha, principled) = self.principled();
             (alpha, MaterialDesc::Principled(Box::new(principled)))
         };
+        if let Some(leaf) = self.extension::<Leaf>("KHR_materials_diffuse_transmission") {
+            let (texture, factor) = (leaf.diffuse_transmission_texture.as_ref(), leaf.diffuse_transmission_factor);
+            let share = self.alpha_times(texture, factor, "through");
+            let color = leaf.diffuse_transmission_color_factor.unwrap_or([1.0; 3]);
+            let info = leaf.diffuse_transmission_color_texture.as_ref();
+            let transmittance = self.color(info, color, Encoding::Auto, "through-color");
+            let through = DiffuseTransmission { reflectance: Rgb::grey(0.0).into(), transmittance };
+            let a = self.part("front", surface);
+            let b = self.part("through", MaterialDesc::DiffuseTransmission(through));
+            surface = MaterialDesc::Mix(Mix { a, b, share });
+        }
         if let Some(info) = normal_texture
             && let Some(map) = self.image(info, Encoding::Linear, false, "normal")
         {
@@ -197,16 +209,13 @@ impl Maker<'_, '_> {
         p.base_metalness = 0.0.into();
         p.specular_ior = (1.0 + root) / (1.0 - root);
         p.specular_color = Rgb(specular.map(|c| if brightest > 0.0 { c / brightest } else { 0.0 })).into();
-        let gloss = bounded(old.glossiness_factor.unwrap_or(1.0), 0.0, 1.0);
-        p.specular_roughness = match old.specular_glossiness_texture {
-            Some(info) => match self.image(&info, Encoding::Linear, true, "gloss") {
-                Some(alpha) => {
-                    let gloss = self.product("gloss.scaled", Color::Texture(alpha), Rgb::grey(gloss).into());
-                    Scalar::Texture(self.texture("roughness", TextureDesc::Invert(Invert { input: gloss })))
-                }
-                None => (1.0 - gloss).into(),
-            },
-            None => (1.0 - gloss).into(),
+        let (texture, factor) = (old.specular_glossiness_texture.as_ref(), old.glossiness_factor.unwrap_or(1.0));
+        p.specular_roughness = match self.alpha_times(texture, factor, "gloss") {
+            Scalar::Number(gloss) => (1.0 - gloss).into(),
+            Scalar::Texture(gloss) => {
+                let input = Color::Texture(gloss);
+                Scalar::Texture(self.texture("roughness", TextureDesc::Invert(Invert { input })))
+            }
         };
         self.warn("specular and glossiness become a glossy matte surface, without the texture of the specular colour");
     }
@@ -217,16 +226,8 @@ impl Maker<'_, '_> {
             p.specular_ior = if ior == 0.0 { 3.0 } else { bounded(ior, 1.0, 3.0) };
         }
         if let Some(specular) = self.extension::<Specular>("KHR_materials_specular") {
-            let factor = bounded(specular.specular_factor.unwrap_or(1.0), 0.0, 1.0);
-            p.specular_weight = match specular.specular_texture {
-                Some(info) => match self.image(&info, Encoding::Auto, true, "specular") {
-                    Some(alpha) => {
-                        scalar(self.product("specular.scaled", Color::Texture(alpha), Rgb::grey(factor).into()))
-                    }
-                    None => factor.into(),
-                },
-                None => factor.into(),
-            };
+            let factor = specular.specular_factor.unwrap_or(1.0);
+            p.specular_weight = self.alpha_times(specular.specular_texture.as_ref(), factor, "specular");
             let color = specular.specular_color_factor.unwrap_or([1.0; 3]);
             p.specular_color =
                 self.color(specular.specular_color_texture.as_ref(), color, Encoding::Auto, "specular-color");
@@ -262,13 +263,8 @@ impl Maker<'_, '_> {
                 let color = sheen.sheen_color_factor.map(|c| c / brightest);
                 p.fuzz_weight = bounded(brightest, 0.0, 1.0).into();
                 p.fuzz_color = self.color(sheen.sheen_color_texture.as_ref(), color, Encoding::Auto, "sheen");
-                p.fuzz_roughness = match self.alpha(sheen.sheen_roughness_texture.as_ref(), "sheen-roughness") {
-                    Some(alpha) => {
-                        let factor = Rgb::grey(bounded(sheen.sheen_roughness_factor, 0.0, 1.0)).into();
-                        scalar(self.product("sheen-roughness.scaled", Color::Texture(alpha), factor))
-                    }
-                    None => bounded(sheen.sheen_roughness_factor, 0.0, 1.0).into(),
-                };
+                let (texture, factor) = (sheen.sheen_roughness_texture.as_ref(), sheen.sheen_roughness_factor);
+                p.fuzz_roughness = self.alpha_times(texture, factor, "sheen-roughness");
             }
         }
         if let Some(film) = self.extension::<Iridescence>("KHR_materials_iridescence") {
@@ -348,8 +344,13 @@ impl Maker<'_, '_> {
         Some(self.texture(&format!("{part}.picture"), TextureDesc::Image(image)))
     }
 
-    fn alpha(&mut self, info: Option<&TextureInfo>, part: &str) -> Option<Name> {
-        info.and_then(|info| self.image(info, Encoding::Auto, true, part))
+    /// The alpha of a picture times a factor, in 0..1; the factor if there is no picture.
+    fn alpha_times(&mut self, info: Option<&TextureInfo>, factor: f32, part: &str) -> Scalar {
+        let factor = bounded(factor, 0.0, 1.0);
+        match info.and_then(|info| self.image(info, Encoding::Auto, true, part)) {
+            Some(alpha) => scalar(self.product(part, Color::Texture(alpha), Rgb::grey(factor).into())),
+            None => factor.into(),
+        }
     }
 
     fn product(&mut self, part: &str, a: Color, b: Color) -> Color {
