@@ -1,6 +1,7 @@
 //! The command line.
 
 mod look;
+mod model;
 
 use std::num::NonZeroUsize;
 use std::path::PathBuf;
@@ -13,6 +14,7 @@ use eyebeam_core::integrator::IntegratorKind;
 use eyebeam_io::scene::Override;
 
 use look::LookArgs;
+pub(crate) use model::{EnvironmentArg, ModelArgs, SetupArgs};
 
 /// Photorealistic pictures by backward ray tracing.
 #[derive(Debug, Parser)]
@@ -40,7 +42,7 @@ pub(crate) enum Command {
 
 #[derive(Debug, ClapArgs)]
 pub(crate) struct RenderArgs {
-    /// Scene file (.toml); - reads standard input
+    /// Scene file (.toml) or model (.gltf, .glb, .ply); - reads a scene from standard input
     pub(crate) scene: PathBuf,
     /// Picture to write (.png, .jpg, .exr, .hdr); - writes a PNG to standard output [default: SCENE.png]
     #[arg(short, long)]
@@ -98,6 +100,10 @@ pub(crate) struct RenderArgs {
     pub(crate) verbose: bool,
     #[command(flatten)]
     pub(crate) look: LookArgs,
+    #[command(flatten)]
+    pub(crate) model: ModelArgs,
+    #[command(flatten)]
+    pub(crate) setup: SetupArgs,
 }
 
 impl RenderArgs {
@@ -123,13 +129,19 @@ pub(crate) struct DevelopArgs {
     #[arg(short, long)]
     pub(crate) quiet: bool,
     #[command(flatten)]
+    pub(crate) model: ModelArgs,
+    #[command(flatten)]
+    pub(crate) setup: SetupArgs,
+    #[command(flatten)]
     pub(crate) look: LookArgs,
 }
 
 #[derive(Debug, ClapArgs)]
 pub(crate) struct CheckArgs {
-    /// Scene file (.toml); - reads standard input
+    /// Scene file (.toml) or model (.gltf, .glb, .ply); - reads a scene from standard input
     pub(crate) scene: PathBuf,
+    #[command(flatten)]
+    pub(crate) model: ModelArgs,
     /// Change a value of the scene, as in -D camera.vfov=30
     #[arg(short = 'D', value_name = "KEY=VALUE", value_parser = setting)]
     pub(crate) set: Vec<Override>,

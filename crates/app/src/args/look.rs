@@ -17,9 +17,10 @@ pub(crate) struct LookArgs {
     /// Darken the corners as a lens of this field of view does, degrees from the bottom to the top; 0 is off
     #[arg(long, value_name = "DEG", default_value = "0", value_parser = vignette)]
     pub(crate) vignette: f32,
-    /// Make it brighter by 2 to the power of EV; auto makes it as bright as middle grey
-    #[arg(long, value_name = "EV", default_value = "0", allow_negative_numbers = true)]
-    pub(crate) exposure: Exposure,
+    /// Make it brighter by 2 to the power of EV; auto makes it as bright as middle grey [default: 0; of models in other light than
+    /// the studio's auto]
+    #[arg(long, value_name = "EV", allow_negative_numbers = true)]
+    pub(crate) exposure: Option<Exposure>,
     /// Temperature of the light that is to look white, kelvin
     #[arg(long, value_name = "K", default_value = "6500", value_parser = white_balance)]
     pub(crate) white_balance: f32,
@@ -49,6 +50,7 @@ const FILES: &str = "Files";
 impl LookArgs {
     pub(crate) fn encoding(&self) -> Encoding {
         let Self { view, bloom, vignette, exposure, white_balance, contrast, saturation, dither, .. } = *self;
+        let exposure = exposure.unwrap_or(Look::default().exposure);
         let look = Look { view, bloom, vignette, exposure, white_balance, contrast, saturation, dither };
         let Self { bits, half, quality, .. } = *self;
         Encoding { look, bits, half, quality }

@@ -7,7 +7,7 @@ use crate::error::Error;
 use crate::progress::say;
 
 pub(super) fn run(args: &CheckArgs) -> Result<(), Error> {
-    let desc = super::read_scene(&args.scene, &args.set, args.strict, false)?.desc;
+    let desc = super::read_scene(&args.scene, &args.model.options(&args.set), args.strict, false)?.desc;
     let shapes = &desc.shape;
     let triangles: usize = shapes.mesh.iter().map(MeshDesc::triangle_count).sum();
     say(&format!(

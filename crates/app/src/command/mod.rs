@@ -6,12 +6,13 @@ mod figures;
 mod render;
 mod schema;
 mod selftest;
+mod setup;
 mod target;
 
 use std::io::{Write, stdout};
 use std::path::Path;
 
-use eyebeam_io::scene::{Override, SceneFile};
+use eyebeam_io::scene::{ReadOptions, SceneFile, read_with};
 
 use crate::args::{Args, Command};
 use crate::error::Error;
@@ -29,8 +30,8 @@ pub(crate) fn run(args: Args) -> Result<(), Error> {
 }
 
 /// Reads a scene and says, if asked to, what is worth a word; if `strict`, that is an error.
-fn read_scene(path: &Path, settings: &[Override], strict: bool, quiet: bool) -> Result<SceneFile, Error> {
-    let file = eyebeam_io::scene::read(path, settings)?;
+fn read_scene(path: &Path, options: &ReadOptions<'_>, strict: bool, quiet: bool) -> Result<SceneFile, Error> {
+    let file = read_with(path, options)?;
     if strict && !file.warnings.is_empty() {
         let errors = file.warnings.into_iter().map(Into::into).collect();
         return Err(eyebeam_io::Error::Scene(errors).into());

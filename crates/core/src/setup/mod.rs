@@ -1,4 +1,17 @@
 //! What a model lacks to make a picture: where the eye is, and light.
+//!
+//! The eye looks at the middle of what there is from the front, a little from the right and from above, from so far that it
+//! nearly fills the picture. A model without light stands on a ground that fades into the light of a studio.
+
+mod extent;
+mod eye;
+mod studio;
+
+use crate::desc::SceneDesc;
+use crate::light::EnvironmentDesc;
+use crate::light::sky::SkyDesc;
+
+pub use extent::Extent;
 
 /// What a file says.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
@@ -12,4 +25,76 @@ pub struct Given {
 impl Given {
     /// Everything.
     pub const ALL: Self = Self { camera: true, light: true };
+}
+
+/// Light from outside.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub enum Surroundings {
+    /// A studio where the file has no light, nothing else where it has.
+    #[default]
+    Auto,
+    /// Softboxes and a pale backdrop.
+    Studio,
+    /// A clear sky with its sun.
+    Sky,
+    /// What the file has.
+    None,
+    /// Of a picture.
+    Image(Box<EnvironmentDesc>),
+}
+
+/// How a model is shown.
+#[derive(Clone, Debug, Default)]
+pub struct Setup {
+    /// Whether the eye is put in front of the model even if the file says where it is.
+    pub own_camera: bool,
+    /// Light from outside.
+    pub surroundings: Surroundings,
+    /// Whether the model stands on something; if nothing is said, it does in a studio and under the sky.
+    pub ground: Option<bool>,
+}
+
+/// What was made up, and how bright the result is to be taken.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Assumed {
+    /// Each in a few words.
+    pub what: Vec<String>,
+    /// Whether the light is that of the studio, whose brightness is known.
+    pub is_studio: bool,
+}
+
+impl Setup {
+    /// Adds to a model what it lacks.
+    pub fn complete(&self, desc: &mut SceneDesc, given: Given) -> Assumed {
+        let mut assumed = Assumed::default();
+        let Some(extent) = Extent::of(desc) else { return assumed };
+        if self.own_camera || !given.camera {
+            let aspect = desc.render.width as f32 / desc.render.height.max(1) as f32;
+            desc.camera = eye::in_front(desc, &extent, aspect);
+            assumed.what.push("a camera in front".to_owned());
+        }
+        let surroundings = match &self.surroundings {
+            Surroundings::Auto if given.light => Surroundings::None,
+            Surroundings::Auto => Surroundings::Studio,
+            said => said.clone(),
+        };
+        match &surroundings {
+            Surroundings::Auto | Surroundings::None => {}
+            Surroundings::Studio => {
+                let [from, at] = [desc.camera.look_from, desc.camera.look_at];
+                desc.environment = studio::environment(from, at);
+                (assumed.is_studio, assumed.what) = (true, [assumed.what, vec!["a studio".to_owned()]].concat());
+            }
+            Surroundings::Sky => {
+                desc.environment = EnvironmentDesc::Sky(SkyDesc::default());
+                assumed.what.push("a sky".to_owned());
+            }
+            Surroundings::Image(image) => desc.environment = (**image).clone(),
+        }
+        if self.ground.unwrap_or(matches!(surroundings, Surroundings::Studio | Surroundings::Sky)) {
+            studio::add_ground(desc, &extent);
+            assumed.what.push("a ground".to_owned());
+        }
+        assumed
+    }
 }

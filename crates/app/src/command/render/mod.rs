@@ -13,8 +13,10 @@ use std::time::{Duration, Instant};
 use eyebeam_core::desc::RenderDesc;
 use eyebeam_core::film::{Aov, ErrorEstimate, Film};
 use eyebeam_core::integrator::IntegratorKind;
+use eyebeam_core::look::Exposure;
 use eyebeam_core::render::{Monitor, Render, Settings};
 use eyebeam_core::scene::Scene;
+use eyebeam_core::setup::{Assumed, Given};
 use eyebeam_io::Warning;
 use eyebeam_io::image::ImageFormat;
 use eyebeam_io::output::check_writable;
@@ -25,16 +27,23 @@ use stats::{Done, Phases, Provenance, Stats};
 
 use crate::args::RenderArgs;
 use crate::command::target::Target;
-use crate::command::{is_standard, read_scene, write};
+use crate::command::{is_standard, read_scene, setup, write};
 use crate::error::Error;
 use crate::progress::{Progress, State, duration, say};
 use crate::signals::Signals;
 
 pub(super) fn run(args: &RenderArgs) -> Result<(), Error> {
-    let target = target(args)?;
+    let mut target = target(args)?;
     let mut phases = Phases::default();
     let clock = Instant::now();
-    let SceneFile { desc, warnings, given: _ } = describe(args)?;
+    let SceneFile { mut desc, warnings, given } = describe(args)?;
+    let Assumed { what, is_studio } = setup::complete(&mut desc, given, &args.setup)?;
+    if !what.is_empty() && !args.quiet {
+        say(&format!("made up: {}", what.join(", ")));
+    }
+    if given != Given::ALL && !is_studio && args.look.exposure.is_none() {
+        target.encoding.look.exposure = Exposure::Auto;
+    }
     let scene_hash = hash::scene_hash(&desc);
     phases.load = clock.elapsed().as_secs_f64();
 
@@ -95,7 +104,7 @@ fn describe(args: &RenderArgs) -> Result<SceneFile, Error> {
     let named = args.integrator.and_then(|kind| IntegratorKind::NAMES.iter().find(|(_, named)| *named == kind));
     settings
         .extend(named.map(|(name, _)| Override { path: "render.integrator".to_owned(), value: (*name).to_owned() }));
-    let mut file = read_scene(&args.scene, &settings, args.strict, args.quiet)?;
+    let mut file = read_scene(&args.scene, &args.model.options(&settings), args.strict, args.quiet)?;
     let render = &mut file.desc.render;
     (render.width, render.height) = args.resolution.unwrap_or((render.width, render.height));
     render.spp = args.spp.unwrap_or(render.spp);

@@ -1,0 +1,95 @@
+//! How models are read and shown: what their files do not say.
+
+use std::path::PathBuf;
+use std::str::FromStr;
+
+use clap::Args as ClapArgs;
+use eyebeam_io::scene::{Override, ReadOptions, Up};
+
+/// How a model is read.
+#[derive(Clone, Debug, ClapArgs)]
+#[command(next_help_heading = "Models (.gltf, .glb, .obj, .ply, .stl)")]
+pub(crate) struct ModelArgs {
+    /// Axis that is upwards in the file: +X, +Y, +Z, -X, -Y or -Z
+    #[arg(long, value_name = "AXIS", allow_hyphen_values = true)]
+    pub(crate) up: Option<Up>,
+    /// Animation that poses the model, by its name or number
+    #[arg(long, value_name = "NAME")]
+    pub(crate) animation: Option<String>,
+    /// When in the animation, seconds
+    #[arg(long, value_name = "SECONDS", default_value_t = 0.0, allow_negative_numbers = true, requires = "animation")]
+    pub(crate) at: f32,
+}
+
+impl ModelArgs {
+    pub(crate) fn options<'a>(&'a self, overrides: &'a [Override]) -> ReadOptions<'a> {
+        ReadOptions { overrides, up: self.up, animation: self.animation.as_deref(), at: self.at }
+    }
+}
+
+/// How a model is shown.
+#[derive(Clone, Debug, ClapArgs)]
+#[command(next_help_heading = "Models (.gltf, .glb, .obj, .ply, .stl)")]
+pub(crate) struct SetupArgs {
+    /// Put the eye in front of the model, even if the file says where it is
+    #[arg(long, value_name = "auto")]
+    pub(crate) camera: Option<CameraArg>,
+    /// Light from outside: studio, sky, none, or a picture (.hdr, .exr) [default: studio, unless the file has light]
+    #[arg(long, value_name = "ENV")]
+    pub(crate) env: Option<EnvironmentArg>,
+    /// Let the model stand on a ground [default: in a studio and under a sky]
+    #[arg(long, overrides_with = "no_ground")]
+    pub(crate) ground: bool,
+    /// Let it stand on nothing
+    #[arg(long, overrides_with = "ground")]
+    pub(crate) no_ground: bool,
+}
+
+impl SetupArgs {
+    /// Whether there is a ground, if that was said.
+    pub(crate) fn wants_ground(&self) -> Option<bool> {
+        match (self.ground, self.no_ground) {
+            (true, _) => Some(true),
+            (_, true) => Some(false),
+            _ => None,
+        }
+    }
+}
+
+/// Where the eye is.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) enum CameraArg {
+    /// In front of the model.
+    Auto,
+}
+
+impl FromStr for CameraArg {
+    type Err = &'static str;
+
+    fn from_str(text: &str) -> Result<Self, Self::Err> {
+        if text == "auto" { Ok(Self::Auto) } else { Err("use auto") }
+    }
+}
+
+/// Light from outside.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub(crate) enum EnvironmentArg {
+    Studio,
+    Sky,
+    None,
+    Picture(PathBuf),
+}
+
+impl FromStr for EnvironmentArg {
+    type Err = &'static str;
+
+    fn from_str(text: &str) -> Result<Self, Self::Err> {
+        match text {
+            "studio" => Ok(Self::Studio),
+            "sky" => Ok(Self::Sky),
+            "none" => Ok(Self::None),
+            file if file.contains('.') => Ok(Self::Picture(file.into())),
+            _ => Err("use studio, sky, none, or the name of a picture"),
+        }
+    }
+}
