@@ -3,7 +3,11 @@
 //! A model becomes a [`SceneDesc`] whose meshes and pictures are loaded. It seldom has a camera or light;
 //! [`Given`] tells what it has, and [`setup`](eyebeam_core::setup) makes the rest.
 
+mod lines;
+mod obj;
 mod ply;
+mod skipped;
+mod stl;
 mod up;
 
 use std::path::Path;
@@ -31,8 +35,11 @@ pub struct ModelFormat {
 }
 
 /// Every kind.
-pub const MODEL_FORMATS: &[ModelFormat] =
-    &[ModelFormat { name: "PLY", endings: &["ply"], up: Some(Up::Y), read: ply::read }];
+pub const MODEL_FORMATS: &[ModelFormat] = &[
+    ModelFormat { name: "OBJ", endings: &["obj"], up: Some(Up::Y), read: obj::read },
+    ModelFormat { name: "PLY", endings: &["ply"], up: Some(Up::Y), read: ply::read },
+    ModelFormat { name: "STL", endings: &["stl"], up: Some(Up::Z), read: stl::read },
+];
 
 /// What a file holds.
 #[derive(Debug, Default)]
@@ -67,11 +74,11 @@ pub(super) fn read(format: &ModelFormat, path: &Path, options: &ReadOptions<'_>)
     let Model { mut desc, given, mut warnings } = (format.read)(path)?;
     desc.render = render;
     match (options.up, format.up) {
-        (Some(up), Some(_)) => up.turn(&mut desc),
+        (given, Some(default)) => given.unwrap_or(default).turn(&mut desc),
         (Some(_), None) => {
             warnings.push(Warning::new(format!("{} files say what is up: `--up` is not used", format.name)))
         }
-        (None, _) => {}
+        (None, None) => {}
     }
     let problems = desc.check();
     if problems.is_empty() {
