@@ -5,6 +5,8 @@ mod errors;
 mod files;
 mod includes;
 mod models;
+mod models_obj;
+mod models_stl;
 mod robustness;
 mod schema;
 mod settings;

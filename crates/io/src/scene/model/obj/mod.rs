@@ -132,9 +132,14 @@ impl Reader {
             let mut parts = word.split('/');
             let part = parts.next().unwrap_or_default();
             let position = index(part, self.points.positions.len(), "vertex")?;
-            let mut optional = |count, what| {
-                let part = parts.next().filter(|part| !part.is_empty());
-                part.map(|part| index(part, count, what)).transpose()
+            let mut optional = |count, what| match parts.next() {
+                None | Some("") => Ok(None),
+                // Some programs number what they do not write.
+                Some(_) if count == 0 => {
+                    self.skipped.note(&format!("a face with a `{what}`, of which there is none, goes without"), number);
+                    Ok(None)
+                }
+                Some(part) => index(part, count, what).map(Some),
             };
             let uv = optional(self.points.uvs.len(), "vt")?;
             let normal = optional(self.points.normals.len(), "vn")?;
