@@ -111,7 +111,7 @@ fn binary(source: &mut impl Read, count: u32, mesh: &mut Builder) -> Result<usiz
         let mut vertex = || [(); 3].map(|()| numbers.next().unwrap_or_default());
         let corners = [(); 3].map(|()| vertex());
         mesh.push(corners).map_err(|e| Failure::File(e.at(At::Byte(HEADER + i * FACET))))?;
-        colored += usize::from(facet.ends_with(&[0, 0]).then_some(()).is_none());
+        colored += usize::from(!facet.ends_with(&[0, 0]));
     }
     Ok(colored)
 }

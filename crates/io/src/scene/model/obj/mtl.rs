@@ -157,11 +157,11 @@ impl Map {
     }
 
     fn set(&mut self, option: &str, values: &[&str], skip: &mut impl FnMut(&str)) {
-        let numbers = values.iter().filter_map(|word| parse(word));
+        let mut numbers = values.iter().filter_map(|word| parse(word));
         match option {
             "-s" => self.scale.iter_mut().zip(numbers).for_each(|(to, number)| *to = number),
             "-o" => self.offset.iter_mut().zip(numbers).for_each(|(to, number)| *to = number),
-            "-bm" => self.bump = numbers.last().unwrap_or(1.0),
+            "-bm" => self.bump = numbers.next().unwrap_or(1.0),
             "-clamp" => self.clamp = values == ["on"],
             other => skip(other),
         }
