@@ -42,7 +42,7 @@ pub(crate) enum Command {
 
 #[derive(Debug, ClapArgs)]
 pub(crate) struct RenderArgs {
-    /// Scene file (.toml) or model (.gltf, .glb, .ply); - reads a scene from standard input
+    /// Scene file (.toml) or model (.gltf, .glb, .obj, .ply, .stl); - reads a scene from standard input
     pub(crate) scene: PathBuf,
     /// Picture to write (.png, .jpg, .exr, .hdr); - writes a PNG to standard output [default: SCENE.png]
     #[arg(short, long)]
@@ -138,7 +138,7 @@ pub(crate) struct DevelopArgs {
 
 #[derive(Debug, ClapArgs)]
 pub(crate) struct CheckArgs {
-    /// Scene file (.toml) or model (.gltf, .glb, .ply); - reads a scene from standard input
+    /// Scene file (.toml) or model (.gltf, .glb, .obj, .ply, .stl); - reads a scene from standard input
     pub(crate) scene: PathBuf,
     #[command(flatten)]
     pub(crate) model: ModelArgs,

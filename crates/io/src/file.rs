@@ -31,14 +31,26 @@ fn too_long() -> FileError {
     FileError::new(format!("the file is longer than {} GiB", MAX_BYTES >> 30))
 }
 
-/// None if there are more than [`MAX_BYTES`].
-fn read_all(path: &Path) -> io::Result<Option<Vec<u8>>> {
+/// A file that is read piece by piece.
+///
+/// # Errors
+/// If the file system refuses, or it is a folder or a device.
+pub(crate) fn open(path: &Path) -> Result<File, Error> {
+    open_regular(path).map_err(|e| Error::read(path, e))
+}
+
+fn open_regular(path: &Path) -> io::Result<File> {
     // Looked at before it is opened: that would wait for whoever writes into a pipe.
     let kind = fs::metadata(path)?;
     if !kind.is_file() {
         return Err(io::Error::other(if kind.is_dir() { "it is a folder" } else { "it is no regular file" }));
     }
-    let file = File::open(path)?;
+    File::open(path)
+}
+
+/// None if there are more than [`MAX_BYTES`].
+fn read_all(path: &Path) -> io::Result<Option<Vec<u8>>> {
+    let file = open_regular(path)?;
     let length = file.metadata()?.len();
     if length > MAX_BYTES {
         return Ok(None);

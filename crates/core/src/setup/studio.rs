@@ -36,6 +36,9 @@ const SOFTBOXES: [Softbox; 3] = [
     Softbox { at: [165.0, 58.0], half: [40.0, 12.0], radiance: 5.0 },
 ];
 
+/// On all of it, so that white paper is a little darker than the picture's white.
+const SCALE: f32 = 0.6;
+
 /// Share of the light that the ground scatters.
 const GROUND: f32 = 0.6;
 
@@ -72,7 +75,7 @@ pub(super) fn environment(look_from: [f32; 3], look_at: [f32; 3]) -> Environment
     EnvironmentDesc::Image(ImageEnvironment {
         file: "studio".to_owned(),
         rotation,
-        scale: 1.0,
+        scale: SCALE,
         image: Some(Arc::new(image)),
     })
 }

@@ -4,7 +4,11 @@
 //! [`Given`] tells what it has, and [`setup`](eyebeam_core::setup) makes the rest.
 
 mod gltf;
+mod lines;
+mod obj;
 mod ply;
+mod skipped;
+mod stl;
 mod up;
 
 use std::path::Path;
@@ -34,7 +38,9 @@ pub struct ModelFormat {
 /// Every kind.
 pub const MODEL_FORMATS: &[ModelFormat] = &[
     ModelFormat { name: "glTF", endings: &["gltf", "glb"], up: None, read: gltf::read },
+    ModelFormat { name: "OBJ", endings: &["obj"], up: Some(Up::Y), read: obj::read },
     ModelFormat { name: "PLY", endings: &["ply"], up: Some(Up::Y), read: ply::read },
+    ModelFormat { name: "STL", endings: &["stl"], up: Some(Up::Z), read: stl::read },
 ];
 
 /// What a file holds.
@@ -70,11 +76,11 @@ pub(super) fn read(format: &ModelFormat, path: &Path, options: &ReadOptions<'_>)
     let Model { mut desc, given, mut warnings } = (format.read)(path, options)?;
     desc.render = render;
     match (options.up, format.up) {
-        (Some(up), Some(_)) => up.turn(&mut desc),
+        (given, Some(default)) => given.unwrap_or(default).turn(&mut desc),
         (Some(_), None) => {
             warnings.push(Warning::new(format!("{} files say what is up: `--up` is not used", format.name)))
         }
-        (None, _) => {}
+        (None, None) => {}
     }
     let problems = desc.check();
     if problems.is_empty() {

@@ -1,6 +1,8 @@
 //! Models: what other programs write.
 
 mod gltf;
+mod obj;
+mod stl;
 
 use std::fs;
 use std::path::{Path, PathBuf};

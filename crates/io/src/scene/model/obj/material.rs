@@ -1,0 +1,250 @@
+//! What materials of a library become: [`Principled`].
+//!
+//! Colours are linear, pictures of colours sRGB unless they hold light; amounts in pictures are linear.
+//!
+//! - `Kd` and `map_Kd` are the base colour, their product if there are both; a black `Kd` leaves the picture alone, since some
+//!   programs write it so.
+//! - `Ks`: the largest channel weighs the specular lobe of index `Ni` (1.5), the rest is its colour; none with `illum` 0 and 1,
+//!   and whole if there is anything of the extension for PBR. `map_Ks` takes the place of the colour.
+//! - `Ns` is an exponent of Phong's: alpha = √(2 / (Ns + 2)), roughness = √alpha. Walter et al. 2007, "Microfacet Models for
+//!   Refraction through Rough Surfaces", doi:10.2312/EGWR/EGSR07/195-206, §5.2. `Pr` is the roughness itself.
+//! - `illum` 3 and 5 with a `Ks` brighter than `Kd`: metal of the colour `Ks`, polished if there is no `Ns`.
+//! - `illum` 4, 6, 7 and 9: clear by 1 − `d`; 6 and 7 all clear if `d` is 1 and `Kd` about black. `Tf` is the colour of
+//!   what goes through; without an index but 1 it is a sheet.
+//! - `d` else, and `map_d`: the share of the surface that is there ([`Mask`]).
+//! - `Ke`, `map_Ke`: radiance, on the side of the normal. What shines has no relief and no holes.
+//! - `bump`, `map_Bump`: heights, `-bm` centimetres from black to white; `norm`: normals as of OpenGL.
+//! - `Pm` metalness, `Ps` fuzz, `Pc` and `Pcr` coat and its roughness, `aniso` anisotropy; `map_Pr`, `map_Pm` and `map_Ps` take their
+//!   places.
+
+use eyebeam_core::color::Rgb;
+use eyebeam_core::film::Wrap;
+use eyebeam_core::material::{Bump, Mask, MaterialDesc, NormalMap, Principled};
+use eyebeam_core::names::Name;
+use eyebeam_core::texture::{Color, Encoding, ImageTexture, Mapping, Multiply, Scalar, TextureDesc};
+
+use super::mtl::Mtl;
+use super::pictures::Pictures;
+use crate::scene::model::Model;
+use crate::warning::Warning;
+
+/// Candela per square metre of radiance 1, as [`Principled::emission_luminance`] tells.
+const LUMINANCE: f32 = 683.0 * 106.86 / 360.0;
+
+/// `Kd` of glass is no brighter.
+const ABOUT_BLACK: f32 = 0.05;
+
+/// Adds a material and its textures; the name that meshes are to use.
+pub(super) fn add(name: &str, mtl: &Mtl, pictures: &mut Pictures, model: &mut Model) -> String {
+    let mut maker = Maker { name, mtl, pictures, model };
+    let mut principled = Box::<Principled>::default();
+    let is_clear = maker.lobes(&mut principled);
+    maker.extension(&mut principled);
+    let shines = maker.emission(&mut principled);
+    let normals = maker.picture("norm", Encoding::Linear);
+    let heights = maker.picture("bump", Encoding::Linear);
+    let opacity = maker.amount("d", if is_clear { 1.0 } else { maker.number("d", 1.0, 1.0) });
+    let mut layers = vec![MaterialDesc::Principled(principled)];
+    let of = || Name::new("");
+    if let Some(map) = normals {
+        layers.push(MaterialDesc::NormalMap(NormalMap {
+            of: of(),
+            map: Color::Texture(Name::new(&map)),
+            strength: 1.0,
+        }));
+    } else if let Some(height) = heights {
+        let scale = 0.01 * mtl.maps.get("bump").map_or(1.0, |map| map.bump.clamp(-1e4, 1e4));
+        layers.push(MaterialDesc::Bump(Bump { of: of(), height: Scalar::Texture(Name::new(&height)), scale }));
+    }
+    if opacity.number() != Some(1.0) {
+        layers.push(MaterialDesc::Mask(Mask { of: of(), opacity }));
+    }
+    if shines {
+        model.given.light = true;
+        if layers.len() > 1 {
+            layers.truncate(1);
+            model
+                .warnings
+                .push(Warning::new(format!("the material `{name}` shines: its relief and holes are not kept")));
+        }
+    }
+    let mut below = String::new();
+    let count = layers.len();
+    for (i, mut layer) in layers.into_iter().enumerate() {
+        match &mut layer {
+            MaterialDesc::NormalMap(NormalMap { of, .. })
+            | MaterialDesc::Bump(Bump { of, .. })
+            | MaterialDesc::Mask(Mask { of, .. }) => *of = Name::new(&below),
+            _ => {}
+        }
+        below = if i + 1 == count { name.to_owned() } else { format!("{name} (layer {i})") };
+        while model.desc.material.contains_key(&below) {
+            below.push('\'');
+        }
+        model.desc.material.insert(below.clone(), layer);
+    }
+    below
+}
+
+struct Maker<'a> {
+    name: &'a str,
+    mtl: &'a Mtl,
+    pictures: &'a mut Pictures,
+    model: &'a mut Model,
+}
+
+impl Maker<'_> {
+    /// A number of the library in 0..`most`.
+    fn number(&self, key: &str, default: f32, most: f32) -> f32 {
+        self.mtl.numbers.get(key).map_or(default, |number| number.clamp(0.0, most))
+    }
+
+    /// A colour of the library, 0..1 in each channel.
+    fn color(&self, key: &str) -> Option<[f32; 3]> {
+        self.mtl.colors.get(key).map(|color| color.map(|c| c.clamp(0.0, 1.0)))
+    }
+
+    /// The name of a picture as a texture.
+    fn picture(&mut self, key: &str, encoding: Encoding) -> Option<String> {
+        let map = self.mtl.maps.get(key)?;
+        let (path, pixels) = self.pictures.get(&self.mtl.folder, &map.file, &mut self.model.warnings)?;
+        let texture = ImageTexture {
+            encoding,
+            wrap: if map.clamp { Wrap::Clamp } else { Wrap::Repeat },
+            mapping: Mapping { scale: map.scale, offset: map.offset, ..Mapping::default() },
+            ..ImageTexture::new(&path.display().to_string(), Some(pixels))
+        };
+        Some(self.texture(key, TextureDesc::Image(texture)))
+    }
+
+    fn texture(&mut self, key: &str, texture: TextureDesc) -> String {
+        let mut name = format!("{} {key}", self.name);
+        while self.model.desc.texture.contains_key(&name) {
+            name.push('\'');
+        }
+        self.model.desc.texture.insert(name.clone(), texture);
+        name
+    }
+
+    /// A picture of amounts, or a number.
+    fn amount(&mut self, key: &str, number: f32) -> Scalar {
+        let picture = self.picture(key, Encoding::Linear);
+        picture.map_or(Scalar::Number(number), |name| Scalar::Texture(Name::new(&name)))
+    }
+
+    /// A picture times a colour; a black or a white one leaves it as it is.
+    fn tinted(&mut self, key: &str, tint: Option<[f32; 3]>) -> Option<Color> {
+        let picture = Color::Texture(Name::new(&self.picture(key, Encoding::Auto)?));
+        match tint.filter(|tint| *tint != [0.0; 3] && *tint != [1.0; 3]) {
+            None => Some(picture),
+            Some(tint) => {
+                let product = Multiply { a: picture, b: Color::Rgb(Rgb(tint)) };
+                let name = self.texture(&format!("{key} tinted"), TextureDesc::Multiply(product));
+                Some(Color::Texture(Name::new(&name)))
+            }
+        }
+    }
+
+    /// The base, the specular lobe and what goes through; whether it is clear.
+    fn lobes(&mut self, p: &mut Principled) -> bool {
+        let illum = self.mtl.numbers.get("illum").map(|illum| *illum as i32);
+        let (kd, ks) = (self.color("Kd"), self.color("Ks"));
+        if let Some(kd) = kd {
+            p.base_color = Color::Rgb(Rgb(kd));
+        }
+        let picture = self.tinted("kd", kd);
+        let has_picture = picture.is_some();
+        if let Some(picture) = picture {
+            p.base_color = picture;
+        }
+        let shininess = self.mtl.numbers.get("Ns").map(|ns| ns.clamp(0.0, 1e9));
+        if let Some(ns) = shininess {
+            p.specular_roughness = Scalar::Number((2.0 / (ns + 2.0)).sqrt().sqrt());
+        }
+        let is_pbr = ["Pr", "Pm", "Ps", "Pc"].iter().any(|key| self.mtl.numbers.contains_key(key))
+            || ["pr", "pm", "ps"].iter().any(|key| self.mtl.maps.contains_key(key));
+        let [kd, ks] = [kd, ks].map(Option::unwrap_or_default);
+        if !is_pbr {
+            let weight = if matches!(illum, Some(0 | 1)) { 0.0 } else { most(ks) };
+            p.specular_weight = Scalar::Number(weight);
+            if weight > 0.0 {
+                p.specular_color = Color::Rgb(Rgb(ks.map(|c| c / weight)));
+            }
+            if let Some(map) = self.tinted("ks", Some(ks)) {
+                p.specular_weight = Scalar::Number(1.0);
+                p.specular_color = map;
+            }
+        }
+        let index = self.mtl.numbers.get("Ni").copied();
+        if let Some(index) = index.filter(|index| *index > 1.0) {
+            p.specular_ior = index.min(3.0);
+        }
+        if matches!(illum, Some(3 | 5)) && !has_picture && Rgb(ks).luminance() > Rgb(kd).luminance() {
+            p.base_metalness = Scalar::Number(1.0);
+            p.base_color = Color::Rgb(Rgb(ks));
+            p.specular_color = Color::Rgb(Rgb::grey(1.0));
+            p.specular_weight = Scalar::Number(1.0);
+            if shininess.is_none() {
+                p.specular_roughness = Scalar::Number(0.0);
+            }
+        }
+        let opacity = self.number("d", 1.0, 1.0);
+        let is_dark = !has_picture && most(kd) <= ABOUT_BLACK;
+        let is_clear = match illum {
+            _ if self.mtl.maps.contains_key("d") => false,
+            Some(6 | 7) => opacity < 1.0 || is_dark,
+            Some(4 | 9) => opacity < 1.0,
+            _ => false,
+        };
+        if is_clear {
+            p.transmission_weight = Scalar::Number(if opacity < 1.0 { 1.0 - opacity } else { 1.0 });
+            p.specular_weight = Scalar::Number(1.0);
+            p.specular_color = Color::Rgb(Rgb::grey(1.0));
+            p.geometry_thin_walled = index.is_none_or(|index| index <= 1.0);
+            if let Some(filter) = self.color("Tf").filter(|filter| *filter != [0.0; 3]) {
+                p.transmission_color = Color::Rgb(Rgb(filter));
+            }
+            if shininess.is_none() {
+                p.specular_roughness = Scalar::Number(0.0);
+            }
+        }
+        is_clear
+    }
+
+    /// The extension for PBR.
+    fn extension(&mut self, p: &mut Principled) {
+        let parts = [
+            ("Pr", "pr", &mut p.specular_roughness),
+            ("Pm", "pm", &mut p.base_metalness),
+            ("Ps", "ps", &mut p.fuzz_weight),
+            ("Pc", "", &mut p.coat_weight),
+            ("Pcr", "", &mut p.coat_roughness),
+            ("aniso", "", &mut p.specular_roughness_anisotropy),
+        ];
+        for (key, map, part) in parts {
+            if self.mtl.numbers.contains_key(key) {
+                *part = Scalar::Number(self.number(key, 0.0, 1.0));
+            }
+            if let Some(picture) = self.picture(map, Encoding::Linear) {
+                *part = Scalar::Texture(Name::new(&picture));
+            }
+        }
+    }
+
+    /// The light that it sends out; whether there is any.
+    fn emission(&mut self, p: &mut Principled) -> bool {
+        let ke = self.mtl.colors.get("Ke").map(|color| color.map(|c| c.clamp(0.0, 1e6)));
+        let strongest = most(ke.unwrap_or_default());
+        let color = if strongest > 0.0 { ke.unwrap_or_default().map(|c| c / strongest) } else { [1.0; 3] };
+        let picture = self.tinted("ke", Some(color));
+        let radiance = if strongest > 0.0 || picture.is_none() { strongest } else { 1.0 };
+        p.emission_luminance = (radiance * LUMINANCE).min(1e9);
+        p.emission_color = picture.unwrap_or(Color::Rgb(Rgb(color)));
+        radiance > 0.0
+    }
+}
+
+/// The largest channel.
+fn most(color: [f32; 3]) -> f32 {
+    color.into_iter().fold(0.0, f32::max)
+}

@@ -1,0 +1,279 @@
+//! Wavefront OBJ: polygons with materials of a library (MTL) beside them.
+//!
+//! Read are `v` (also with a colour after x y z, as sRGB signals), `vt`, `vn`, `f`, `s`, `usemtl` and `mtllib`; `o` and `g` change
+//! nothing, since faces of a material are one mesh. Where a face has no normals it is flat, or smooth within its smoothing group.
+//! The file is read line by line. Wavefront, "Advanced Visualizer Manual", appendix B1, 1993.
+
+mod material;
+mod meshes;
+mod mtl;
+mod pictures;
+mod polygon;
+
+use std::collections::{BTreeMap, HashMap};
+use std::path::Path;
+use std::sync::Arc;
+
+use eyebeam_core::color::srgb_decode;
+use eyebeam_core::material::{Lambertian, MaterialDesc};
+use eyebeam_core::names::Name;
+use eyebeam_core::shape::MeshDesc;
+use eyebeam_core::texture::{Color, TextureDesc, VertexColor};
+use glam::{DVec3, Vec3};
+
+use crate::error::{At, Error, FileError};
+use crate::scene::ReadOptions;
+use crate::scene::model::Model;
+use crate::scene::model::lines::Lines;
+use crate::scene::model::skipped::Skipped;
+use crate::warning::Warning;
+use meshes::{Corner, Meshes, Normal, Points};
+use mtl::Mtl;
+use pictures::Pictures;
+
+pub(super) fn read(path: &Path, _: &ReadOptions<'_>) -> Result<Model, Error> {
+    let name = path.display().to_string();
+    let mut reader = Reader::default();
+    let mut lines = Lines::open(path, true)?;
+    while let Some((number, line)) = lines.next()? {
+        reader.line(line, number).map_err(|e| e.at(At::Line(number)).of(&name))?;
+    }
+    if reader.faces == 0 {
+        return Err(FileError::new("the file has no faces")
+            .hint("it is empty, or holds curves or points alone")
+            .of(&name));
+    }
+    Ok(reader.finish(path, &name))
+}
+
+#[derive(Default)]
+struct Reader {
+    points: Points,
+    meshes: Meshes,
+    /// Names by their numbers, from 1; 0 is none.
+    materials: Vec<String>,
+    numbers: HashMap<String, u32>,
+    /// The number of the material in use.
+    material: u32,
+    /// The smoothing group, 0 is none.
+    group: u32,
+    /// Names after `mtllib`, whole.
+    libraries: Vec<String>,
+    skipped: Skipped,
+    /// Of any number of corners.
+    faces: usize,
+    corners: Vec<Corner>,
+    triangles: Vec<[usize; 3]>,
+}
+
+impl Reader {
+    fn line(&mut self, line: &str, number: usize) -> Result<(), FileError> {
+        let line = line.trim();
+        let (keyword, rest) = line.split_once(|c: char| c.is_ascii_whitespace()).unwrap_or((line, ""));
+        let words = || rest.split_ascii_whitespace().take_while(|word| !word.starts_with('#'));
+        match keyword {
+            "v" => self.position(words()),
+            "vt" => {
+                let ([u, v, _], _) = numbers(words(), 1)?;
+                push(&mut self.points.uvs, [u, v])
+            }
+            "vn" => push(&mut self.points.normals, numbers::<3>(words(), 3)?.0),
+            "f" | "fo" => self.face(words(), number),
+            "s" => {
+                let group = words().next().unwrap_or("off");
+                match if group.eq_ignore_ascii_case("off") { Ok(0) } else { group.parse() } {
+                    Ok(group) => self.group = group,
+                    Err(_) => self.skipped.note("a smoothing group that is no number is not read", number),
+                }
+                Ok(())
+            }
+            "usemtl" => self.use_material(rest.trim()),
+            "mtllib" => {
+                let rest = rest.trim().to_owned();
+                if !self.libraries.contains(&rest) && self.libraries.len() < 1000 {
+                    self.libraries.push(rest);
+                }
+                Ok(())
+            }
+            "" | "o" | "g" => Ok(()),
+            _ if keyword.starts_with('#') => Ok(()),
+            other => {
+                self.skipped.note(&format!("`{other}` is not read"), number);
+                Ok(())
+            }
+        }
+    }
+
+    fn position<'a>(&mut self, words: impl Iterator<Item = &'a str>) -> Result<(), FileError> {
+        let ([x, y, z, r, g, b, _], count) = numbers::<7>(words, 3)?;
+        push(&mut self.points.positions, [x, y, z])?;
+        if count == 6 {
+            self.points.color([r, g, b].map(|signal| srgb_decode(signal.clamp(0.0, 1.0))));
+        }
+        Ok(())
+    }
+
+    fn use_material(&mut self, name: &str) -> Result<(), FileError> {
+        if let Some(&number) = self.numbers.get(name) {
+            self.material = number;
+            return Ok(());
+        }
+        self.materials.push(name.to_owned());
+        self.material =
+            u32::try_from(self.materials.len()).map_err(|_| FileError::new("there are too many materials"))?;
+        self.numbers.insert(name.to_owned(), self.material);
+        Ok(())
+    }
+
+    fn face<'a>(&mut self, words: impl Iterator<Item = &'a str>, number: usize) -> Result<(), FileError> {
+        self.faces += 1;
+        self.corners.clear();
+        let mut has_normals = true;
+        for word in words {
+            let mut parts = word.split('/');
+            let part = parts.next().unwrap_or_default();
+            let position = index(part, self.points.positions.len(), "vertex")?;
+            let mut optional = |count, what| match parts.next() {
+                None | Some("") => Ok(None),
+                // Some programs number what they do not write.
+                Some(_) if count == 0 => {
+                    self.skipped.note(&format!("a face with a `{what}`, of which there is none, goes without"), number);
+                    Ok(None)
+                }
+                Some(part) => index(part, count, what).map(Some),
+            };
+            let uv = optional(self.points.uvs.len(), "vt")?;
+            let normal = optional(self.points.normals.len(), "vn")?;
+            if parts.next().is_some() {
+                return Err(FileError::new(format!("`{word}` is no corner")).hint("write v, v/vt, v//vn or v/vt/vn"));
+            }
+            has_normals &= normal.is_some();
+            self.corners.push(Corner { position, uv, normal: normal.map_or(Normal::None, Normal::Given) });
+        }
+        if self.corners.len() < 3 {
+            self.skipped.note("a face of fewer than three corners is dropped", number);
+            return Ok(());
+        }
+        if !has_normals {
+            for corner in &mut self.corners {
+                corner.normal =
+                    if self.group == 0 { Normal::None } else { self.meshes.made(corner.position, self.group)? };
+            }
+        }
+        let place = |c: &Corner| self.points.positions.get(c.position as usize).copied().unwrap_or_default();
+        let places: Vec<DVec3> = self.corners.iter().map(|c| Vec3::from(place(c)).as_dvec3()).collect();
+        self.triangles.clear();
+        polygon::triangulate(&places, &mut self.triangles);
+        let key = (self.material, has_normals || self.group != 0);
+        for &[a, b, c] in &self.triangles {
+            if let (Some(&a), Some(&b), Some(&c)) = (self.corners.get(a), self.corners.get(b), self.corners.get(c)) {
+                self.meshes.push(key, [a, b, c], &self.points)?;
+            }
+        }
+        Ok(())
+    }
+
+    fn finish(self, path: &Path, file: &str) -> Model {
+        let Self { points, meshes, materials, libraries, skipped, .. } = self;
+        let mut model = Model::new();
+        model.warnings = skipped.warnings(file);
+        let folder = path.parent().filter(|folder| !folder.as_os_str().is_empty()).unwrap_or(Path::new("."));
+        let mut pictures = Pictures::new(folder);
+        let mut known = BTreeMap::new();
+        for library in &libraries {
+            read_libraries(&pictures, library, &mut known, &mut model.warnings);
+        }
+        let mut made = BTreeMap::new();
+        for ((number, _), data) in meshes.finish(&points) {
+            let name = (number as usize).checked_sub(1).and_then(|i| materials.get(i));
+            let material = name.and_then(|name| {
+                let outcome = made.entry(name.clone()).or_insert_with(|| match known.get(name) {
+                    Some(mtl) => Some(material::add(name, mtl, &mut pictures, &mut model)),
+                    None => {
+                        let message = format!("there is no material `{name}`: what has it is grey");
+                        model.warnings.push(Warning::new(message));
+                        None
+                    }
+                });
+                outcome.clone()
+            });
+            let material = material.or_else(|| (!data.colors.is_empty()).then(|| vertex_color(&mut model)));
+            let data = Some(Arc::new(data));
+            model.desc.shape.mesh.push(MeshDesc { file: Some(file.to_owned()), material, data, ..MeshDesc::default() });
+        }
+        model
+    }
+}
+
+/// Appends to a list that indices of 32 bits reach.
+fn push<T>(list: &mut Vec<T>, item: T) -> Result<(), FileError> {
+    if list.len() >= u32::MAX as usize {
+        return Err(FileError::new("there are too many vertices"));
+    }
+    list.push(item);
+    Ok(())
+}
+
+/// Up to `N` finite numbers, of which `least` must be there, and how many there are.
+fn numbers<'a, const N: usize>(
+    words: impl Iterator<Item = &'a str>,
+    least: usize,
+) -> Result<([f32; N], usize), FileError> {
+    let mut found = [0.0; N];
+    let mut count = 0;
+    for (number, word) in found.iter_mut().zip(words) {
+        *number = parse(word).ok_or_else(|| FileError::new(format!("`{word}` is no finite number")))?;
+        count += 1;
+    }
+    if count < least {
+        return Err(FileError::new(format!("there are {count} numbers, and not {least}")));
+    }
+    Ok((found, count))
+}
+
+/// A finite number; some programs write `3.1+e2` for `3.1e+2`.
+fn parse(word: &str) -> Option<f32> {
+    let number = word.parse().or_else(|e| match word.split_once("+e").or_else(|| word.split_once("-e")) {
+        Some((mantissa, exponent)) => {
+            let sign = if word.contains("-e") { '-' } else { '+' };
+            format!("{mantissa}e{sign}{exponent}").parse()
+        }
+        None => Err(e),
+    });
+    number.ok().filter(|number: &f32| number.is_finite())
+}
+
+/// The place in a list of which a file has had `count`: from 1, or from its end if negative.
+fn index(word: &str, count: usize, what: &str) -> Result<u32, FileError> {
+    let number: i64 = word.parse().map_err(|_| FileError::new(format!("`{word}` is no whole number")))?;
+    let index = if number < 0 { number.checked_add_unsigned(count as u64) } else { number.checked_sub(1) };
+    let index = index.and_then(|i| u32::try_from(i).ok()).filter(|&i| (i as usize) < count);
+    index.ok_or_else(|| FileError::new(format!("there is no {what} {number}: there are {count} before this line")))
+}
+
+/// The material of the colours of vertices.
+fn vertex_color(model: &mut Model) -> String {
+    let name = "vertex-color".to_owned();
+    let albedo = Color::Texture(Name::new(&name));
+    model.desc.texture.insert(name.clone(), TextureDesc::VertexColor(VertexColor::default()));
+    model.desc.material.entry(name.clone()).or_insert(MaterialDesc::Lambertian(Lambertian { albedo }));
+    name
+}
+
+/// Reads the libraries after a `mtllib`: one whose name has spaces, or several.
+fn read_libraries(pictures: &Pictures, names: &str, known: &mut BTreeMap<String, Mtl>, warnings: &mut Vec<Warning>) {
+    let names = if pictures.find(Path::new(""), names).is_ok() {
+        vec![names]
+    } else {
+        names.split_ascii_whitespace().collect()
+    };
+    for name in names {
+        match pictures.find(Path::new(""), name) {
+            Ok(path) => match mtl::read(&path, name, known) {
+                Ok(found) => warnings.extend(found),
+                Err(e) => warnings.push(Warning::new(format!("`{name}` is not read: {e}"))),
+            },
+            Err(why) => warnings.push(Warning::new(format!("`{name}` is not read: {why}"))),
+        }
+    }
+}

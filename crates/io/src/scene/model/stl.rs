@@ -1,0 +1,163 @@
+//! STL: triangles for 3D printers, as text or binary; a mesh without normals, whose equal vertices are one.
+//!
+//! A file of the length that its binary count of triangles says is binary, even if it begins with `solid`. What is up is not
+//! said; printers build along +Z. StereoLithography Interface Specification, 3D Systems, 1988.
+
+use std::collections::HashMap;
+use std::io::{BufReader, Read};
+use std::path::Path;
+use std::sync::Arc;
+
+use eyebeam_core::shape::{MeshData, MeshDesc};
+
+use crate::error::{At, Error, FileError};
+use crate::file;
+use crate::scene::ReadOptions;
+use crate::scene::model::Model;
+use crate::scene::model::lines::Lines;
+use crate::scene::model::skipped::Skipped;
+use crate::warning::Warning;
+
+/// Bytes before the triangles: a title and their number.
+const HEADER: usize = 84;
+/// Bytes of a triangle: a normal, three vertices, and two of colour.
+const FACET: usize = 50;
+
+pub(super) fn read(path: &Path, _: &ReadOptions<'_>) -> Result<Model, Error> {
+    let name = path.display().to_string();
+    let mut model = Model::new();
+    let mut mesh = Builder::default();
+    let file = file::open(path)?;
+    let length = file.metadata().map_err(|e| Error::read(path, e))?.len();
+    let mut source = BufReader::new(file);
+    let mut header = Vec::new();
+    source.by_ref().take(HEADER as u64).read_to_end(&mut header).map_err(|e| Error::read(path, e))?;
+    let count = header.last_chunk::<4>().filter(|_| header.len() == HEADER).map(|n| u32::from_le_bytes(*n));
+    let expected = count.map(|count| HEADER as u64 + u64::from(count) * FACET as u64);
+    let says_solid = header.trim_ascii_start().get(..5).is_some_and(|word| word.eq_ignore_ascii_case(b"solid"));
+    match (count, expected) {
+        (Some(count), Some(expected)) if expected == length || (!says_solid && expected <= length) => {
+            let colored = binary(&mut source, count, &mut mesh).map_err(|e| e.or_read(path))?;
+            if colored > 0 {
+                model.warnings.push(Warning::new(format!("`{name}`: the colours of {colored} triangles are not read")));
+            }
+            if expected < length {
+                let rest = length - expected;
+                model.warnings.push(Warning::new(format!("`{name}`: {rest} bytes after the triangles are not read")));
+            }
+        }
+        _ if says_solid => text(path, &name, &mut mesh, &mut model.warnings)?,
+        (Some(count), _) => {
+            let error = FileError::new(format!("the file is too short for {count} triangles"));
+            return Err(error.at(At::Byte(HEADER - 4)).hint("it is cut off, or no STL").of(&name));
+        }
+        (None, _) => {
+            return Err(FileError::new("the file is no STL").hint("it is cut off, or of another kind").of(&name));
+        }
+    }
+    let data = Some(Arc::new(mesh.data));
+    model.desc.shape.mesh.push(MeshDesc { file: Some(name), data, ..MeshDesc::default() });
+    Ok(model)
+}
+
+/// A mesh in the making.
+#[derive(Default)]
+struct Builder {
+    data: MeshData,
+    /// Vertices by their bits.
+    vertices: HashMap<[u32; 3], u32>,
+}
+
+impl Builder {
+    fn push(&mut self, corners: [[f32; 3]; 3]) -> Result<(), FileError> {
+        let mut triangle = [0; 3];
+        for (index, corner) in triangle.iter_mut().zip(corners) {
+            if corner.iter().any(|c| !c.is_finite()) {
+                return Err(FileError::new(format!("a vertex is at {corner:?}, which is not finite")));
+            }
+            let count = self.data.vertices.len();
+            let count = u32::try_from(count).map_err(|_| FileError::new("there are too many vertices"))?;
+            *index = *self.vertices.entry(corner.map(f32::to_bits)).or_insert_with(|| {
+                self.data.vertices.push(corner);
+                count
+            });
+        }
+        self.data.triangles.push(triangle);
+        Ok(())
+    }
+}
+
+enum Failure {
+    Io(std::io::Error),
+    File(FileError),
+}
+
+impl Failure {
+    fn or_read(self, path: &Path) -> Error {
+        match self {
+            Self::Io(e) => Error::read(path, e),
+            Self::File(e) => e.of(&path.display().to_string()),
+        }
+    }
+}
+
+/// Reads triangles; how many have colours.
+fn binary(source: &mut impl Read, count: u32, mesh: &mut Builder) -> Result<usize, Failure> {
+    let mut colored = 0;
+    let mut facet = [0; FACET];
+    for i in 0..count as usize {
+        source.read_exact(&mut facet).map_err(Failure::Io)?;
+        let (words, _) = facet.as_chunks::<4>();
+        let mut numbers = words.iter().skip(3).map(|word| f32::from_le_bytes(*word));
+        let mut vertex = || [(); 3].map(|()| numbers.next().unwrap_or_default());
+        let corners = [(); 3].map(|()| vertex());
+        mesh.push(corners).map_err(|e| Failure::File(e.at(At::Byte(HEADER + i * FACET))))?;
+        colored += usize::from(!facet.ends_with(&[0, 0]));
+    }
+    Ok(colored)
+}
+
+/// Reads a text: the vertices between `outer loop` and `endloop`.
+fn text(path: &Path, name: &str, mesh: &mut Builder, warnings: &mut Vec<Warning>) -> Result<(), Error> {
+    let mut lines = Lines::open(path, false)?;
+    let mut skipped = Skipped::default();
+    let mut corners: Vec<[f32; 3]> = Vec::new();
+    let mut last = 0;
+    let mut ended = false;
+    while let Some((number, line)) = lines.next()? {
+        last = number;
+        let wrong = |error: FileError| error.at(At::Line(number)).of(name);
+        let mut words = line.split_ascii_whitespace();
+        let Some(word) = words.next() else { continue };
+        match word.to_ascii_lowercase().as_str() {
+            "vertex" => {
+                let mut vertex = [0.0; 3];
+                for c in &mut vertex {
+                    let word = words.next().ok_or_else(|| wrong(FileError::new("a vertex has three numbers")))?;
+                    *c = word.parse().map_err(|_| wrong(FileError::new(format!("`{word}` is no number"))))?;
+                }
+                corners.push(vertex);
+                if corners.len() > 3 {
+                    return Err(wrong(FileError::new("a facet has more than three vertices")));
+                }
+            }
+            "endloop" => match corners[..] {
+                [a, b, c] => {
+                    mesh.push([a, b, c]).map_err(wrong)?;
+                    corners.clear();
+                }
+                _ => return Err(wrong(FileError::new(format!("a facet has {} vertices, and not 3", corners.len())))),
+            },
+            "endsolid" | "end" => ended = true,
+            "solid" => ended = false,
+            "facet" | "outer" | "endfacet" => {}
+            other => skipped.note(&format!("`{other}` is not read"), number),
+        }
+    }
+    if !corners.is_empty() || !ended {
+        let error = FileError::new("the file ends within a solid").at(At::Line(last.max(1)));
+        return Err(error.hint("it is cut off").of(name));
+    }
+    warnings.extend(skipped.warnings(name));
+    Ok(())
+}
