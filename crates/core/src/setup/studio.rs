@@ -37,15 +37,15 @@ const SOFTBOXES: [Softbox; 3] = [
 ];
 
 /// On all of it, so that white paper is a little darker than the picture's white.
-const SCALE: f32 = 0.6;
+const SCALE: f32 = 0.4;
 
 /// Share of the light that the ground scatters.
-const GROUND: f32 = 0.6;
+const GROUND: f32 = 0.4;
 
 /// Radiance without softboxes, by the height of the direction as its sine.
 fn backdrop(height: f32, ground: f32) -> f32 {
     /// From straight above.
-    const ABOVE: f32 = 0.9;
+    const ABOVE: f32 = 0.5;
     // Below the horizon it is the ground, above it brightens slowly.
     ground + (ABOVE - ground) * height.clamp(0.0, 1.0)
 }

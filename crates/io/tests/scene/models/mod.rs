@@ -70,23 +70,24 @@ fn a_model_that_is_missing_is_said() {
     assert!(read(Path::new("nowhere.ply"), &[]).unwrap_err().to_string().contains("cannot read `nowhere.ply`"));
 }
 
-/// Other people's files: below `EYEBEAM_CORPUS`, or beside the repository.
-fn corpus() -> PathBuf {
+/// All files below a folder of other people's whose names end in one of these, in the folder that `EYEBEAM_CORPUS` names or beside the
+/// repository; none, and a word about it, if there is none.
+fn corpus(folder: &str, endings: &[&str]) -> Vec<PathBuf> {
     let beside = || Path::new(env!("CARGO_MANIFEST_DIR")).join("../../../shared/scenes");
-    std::env::var_os("EYEBEAM_CORPUS").map_or_else(beside, PathBuf::from)
-}
-
-/// All files in a folder and below whose names end in one of these; none if there is no folder.
-fn files(folder: &Path, endings: &[&str]) -> Option<Vec<PathBuf>> {
-    let mut found = Vec::new();
-    for entry in fs::read_dir(folder).ok()? {
-        let path = entry.ok()?.path();
-        if path.is_dir() {
-            found.extend(files(&path, endings).unwrap_or_default());
-        } else if path.extension().is_some_and(|e| endings.iter().any(|ending| e.eq_ignore_ascii_case(ending))) {
-            found.push(path);
+    let root = std::env::var_os("EYEBEAM_CORPUS").map_or_else(beside, PathBuf::from).join(folder);
+    if !root.is_dir() {
+        println!("not tested: there is no {folder}; EYEBEAM_CORPUS tells where it is");
+    }
+    let (mut found, mut folders) = (Vec::new(), vec![root]);
+    while let Some(folder) = folders.pop() {
+        for path in fs::read_dir(folder).into_iter().flatten().flatten().map(|entry| entry.path()) {
+            if path.is_dir() {
+                folders.push(path);
+            } else if path.extension().is_some_and(|e| endings.iter().any(|ending| e.eq_ignore_ascii_case(ending))) {
+                found.push(path);
+            }
         }
     }
     found.sort();
-    Some(found)
+    found
 }

@@ -2,7 +2,6 @@
 
 use std::collections::BTreeMap;
 use std::fs;
-use std::path::{Path, PathBuf};
 use std::time::{Duration, Instant};
 
 use eyebeam_core::desc::SceneDesc;
@@ -15,6 +14,8 @@ use eyebeam_io::{At, Error};
 use proptest::prelude::Rng as _;
 use proptest::test_runner::{RngAlgorithm, TestRng};
 use tempfile::TempDir;
+
+use crate::models::corpus;
 
 /// A square of four corners.
 const SQUARE: &str = "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\n";
@@ -318,31 +319,10 @@ fn damaged_files_end() {
     survive(format!("{SQUARE}f {}", "\\\n".repeat(2_000_000)).as_bytes(), b"");
 }
 
-/// All files with an ending below a folder of the corpus; none, and a word about it, if there is none.
-pub(crate) fn corpus(folder: &str, ending: &str) -> Vec<PathBuf> {
-    let beside = || Path::new(concat!(env!("CARGO_MANIFEST_DIR"), "/../../../shared/scenes")).to_owned();
-    let root = std::env::var_os("EYEBEAM_CORPUS").map_or_else(beside, PathBuf::from).join(folder);
-    if !root.is_dir() {
-        println!("skipped: there is no {}", root.display());
-    }
-    let (mut found, mut folders) = (Vec::new(), vec![root]);
-    while let Some(folder) = folders.pop() {
-        for path in fs::read_dir(folder).into_iter().flatten().flatten().map(|entry| entry.path()) {
-            if path.is_dir() {
-                folders.push(path);
-            } else if path.extension().is_some_and(|e| e.eq_ignore_ascii_case(ending)) {
-                found.push(path);
-            }
-        }
-    }
-    found.sort();
-    found
-}
-
 #[test]
 fn files_of_other_programs() {
     let mut triangles = BTreeMap::new();
-    for path in corpus("meshes", "obj") {
+    for path in corpus("meshes", &["obj"]) {
         let file = read(&path, &[]).unwrap_or_else(|e| panic!("{e}"));
         let count: usize = file.desc.shape.mesh.iter().map(|mesh| mesh.triangle_count()).sum();
         assert!(count > 0, "{}", path.display());
@@ -351,7 +331,5 @@ fn files_of_other_programs() {
     for (name, expected) in [("stanford-bunny.obj", 69_451), ("spot.obj", 5_856), ("assimp_box_UTF16BE.obj", 12)] {
         assert!(triangles.get(name).is_none_or(|&count| count == expected), "{name}: {triangles:?}");
     }
-    for ending in ["obj", "stl", "ply"] {
-        corpus("bad", ending).iter().for_each(|path| drop(read(path, &[])));
-    }
+    corpus("bad", &["obj", "stl", "ply"]).iter().for_each(|path| drop(read(path, &[])));
 }

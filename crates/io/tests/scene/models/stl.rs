@@ -10,7 +10,7 @@ use proptest::prelude::Rng as _;
 use proptest::test_runner::{RngAlgorithm, TestRng};
 use tempfile::TempDir;
 
-use crate::models_obj::corpus;
+use crate::models::corpus;
 
 const TEXT: &str = "solid a b\nfacet normal 0 0 1\n outer loop\n  vertex 0 0 0\n  vertex 1 0 0\n  vertex 0 0 2e0\n endloop\nendfacet\n\
     facet normal 0 0 1\n outer loop\n  vertex 0 0 0\n  vertex 0 0 2\n  vertex -1 0 0\n endloop\nendfacet\nendsolid a b\n";
@@ -110,7 +110,7 @@ fn damaged_files_end() {
 
 #[test]
 fn files_of_other_programs() {
-    for path in corpus("meshes", "stl") {
+    for path in corpus("meshes", &["stl"]) {
         let file = read(&path, &[]).unwrap_or_else(|e| panic!("{e}"));
         assert!(!data(&file).triangles.is_empty() && data(&file).vertices.len() <= 3 * data(&file).triangles.len());
     }

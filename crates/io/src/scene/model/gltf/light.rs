@@ -1,7 +1,7 @@
 //! `KHR_lights_punctual`: points, spots and suns, in candela and lux.
 //!
 //! Photometric numbers become radiometric ones by 683 lm / W, the most that light can have; a picture with automatic exposure
-//! does not depend on it.
+//! does not depend on it. What is around is still missing: a file has no surroundings.
 
 use eyebeam_core::color::Rgb;
 use eyebeam_core::light::{DirectionalLight, PointLight, SpotLight};
@@ -47,6 +47,5 @@ pub(super) fn read(document: &Document, node: &Node, to_world: &DAffine3, model:
         }),
         other => return Err(FileError::new(format!("light {index} is of the type `{other}`, which does not exist"))),
     }
-    model.given.light = true;
     Ok(())
 }
