@@ -6,6 +6,7 @@ mod develop;
 mod examples;
 mod files;
 mod gallery;
+mod models;
 mod output;
 mod pictures;
 mod selftest;

@@ -1,0 +1,49 @@
+//! Models with no options: a picture, and a word about what was made up for it.
+
+use crate::{Place, read_png};
+
+/// A red box of ten metres a side, in the first unit that comes to mind.
+const BOX: &str = "ply
+format ascii 1.0
+element vertex 8
+property float x
+property float y
+property float z
+element face 6
+property list uchar int vertex_indices
+end_header
+0 0 0
+10 0 0
+10 10 0
+0 10 0
+0 0 10
+10 0 10
+10 10 10
+0 10 10
+4 0 3 2 1
+4 4 5 6 7
+4 0 1 5 4
+4 1 2 6 5
+4 2 3 7 6
+4 3 0 4 7
+";
+
+#[test]
+fn a_mesh_alone_is_a_picture() {
+    let place = Place::new();
+    place.write("box.ply", BOX);
+    let run = place.run("render box.ply -o box.png -r 64x48 --spp 8 --progress none").ends_with(0);
+    assert!(run.stderr.contains("made up: a camera in front, a studio, a ground"), "{}", run.stderr);
+    let (_, _, pixels, _) = read_png(&place.read("box.png"));
+    let clipped = pixels.iter().filter(|&&byte| byte == 255).count();
+    assert!(clipped * 100 < pixels.len(), "{clipped} of {}", pixels.len());
+    let mean = pixels.iter().map(|&byte| u32::from(byte)).sum::<u32>() / pixels.len() as u32;
+    assert!((60..230).contains(&mean), "{mean}");
+    // Without anything around, the alpha is the box.
+    let options = "--env none --transparent --no-ground";
+    place.run(&format!("render box.ply -q -o alone.png -r 64x48 --spp 8 {options}")).ends_with(0);
+    let (_, _, pixels, _) = read_png(&place.read("alone.png"));
+    let covered = |i: usize| pixels[4 * i + 3] > 127;
+    let rows = (0..48).filter(|y| (0..64).any(|x| covered(y * 64 + x))).count();
+    assert!((24..=41).contains(&rows), "{rows} of 48 rows");
+}
