@@ -88,6 +88,17 @@ impl FileError {
     }
 }
 
+/// The reason alone.
+impl From<Error> for FileError {
+    fn from(error: Error) -> Self {
+        match error {
+            Error::File(error) => error,
+            Error::Io { source, .. } => Self::new(source.to_string()),
+            other => Self::new(other.to_string()),
+        }
+    }
+}
+
 impl fmt::Display for FileError {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         write!(f, "error: {}\n  --> {}", visible(&self.message), visible(&self.file))?;

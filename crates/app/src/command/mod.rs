@@ -12,7 +12,7 @@ mod target;
 use std::io::{Write, stdout};
 use std::path::Path;
 
-use eyebeam_io::scene::{ReadOptions, SceneFile, read_with};
+use eyebeam_io::scene::SceneFile;
 
 use crate::args::{Args, Command};
 use crate::error::Error;
@@ -29,9 +29,8 @@ pub(crate) fn run(args: Args) -> Result<(), Error> {
     }
 }
 
-/// Reads a scene and says, if asked to, what is worth a word; if `strict`, that is an error.
-fn read_scene(path: &Path, options: &ReadOptions<'_>, strict: bool, quiet: bool) -> Result<SceneFile, Error> {
-    let file = read_with(path, options)?;
+/// Says of a scene, if asked to, what is worth a word; if `strict`, that is an error.
+fn told(file: SceneFile, strict: bool, quiet: bool) -> Result<SceneFile, Error> {
     if strict && !file.warnings.is_empty() {
         let errors = file.warnings.into_iter().map(Into::into).collect();
         return Err(eyebeam_io::Error::Scene(errors).into());

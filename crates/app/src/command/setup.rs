@@ -2,27 +2,31 @@
 
 use std::sync::Arc;
 
-use eyebeam_core::desc::SceneDesc;
-use eyebeam_core::light::{EnvironmentDesc, ImageEnvironment};
-use eyebeam_core::setup::{Assumed, Given, Setup, Surroundings};
+use eyebeam_core::light::ImageEnvironment;
+use eyebeam_core::setup::{Assumed, Setup, Surroundings};
 use eyebeam_io::image::read_image;
+use eyebeam_io::scene::SceneFile;
 
 use crate::args::{EnvironmentArg, SetupArgs};
 use crate::error::Error;
 
-/// Adds it, as the command line says.
-pub(super) fn complete(desc: &mut SceneDesc, given: Given, args: &SetupArgs) -> Result<Assumed, Error> {
+/// Adds it, as the command line says; what could not be kept of a picture goes to the warnings.
+pub(super) fn complete(
+    SceneFile { desc, warnings, given }: &mut SceneFile,
+    args: &SetupArgs,
+) -> Result<Assumed, Error> {
     let surroundings = match &args.env {
         None => Surroundings::Auto,
         Some(EnvironmentArg::Studio) => Surroundings::Studio,
         Some(EnvironmentArg::Sky) => Surroundings::Sky,
         Some(EnvironmentArg::None) => Surroundings::None,
         Some(EnvironmentArg::Picture(path)) => {
-            let image = Some(Arc::new(read_image(path)?.0));
-            let map = ImageEnvironment { file: path.display().to_string(), rotation: 0.0, scale: 1.0, image };
-            Surroundings::Image(Box::new(EnvironmentDesc::Image(map)))
+            let (image, more) = read_image(path)?;
+            warnings.extend(more);
+            let (file, image) = (path.display().to_string(), Some(Arc::new(image)));
+            Surroundings::Image(ImageEnvironment { file, rotation: 0.0, scale: 1.0, image })
         }
     };
     let setup = Setup { own_camera: args.camera.is_some(), surroundings, ground: args.wants_ground() };
-    Ok(setup.complete(desc, given))
+    Ok(setup.complete(desc, *given))
 }

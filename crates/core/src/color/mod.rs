@@ -4,6 +4,7 @@ mod observer;
 mod rgb;
 mod spectrum;
 
-pub(crate) use observer::{LUMENS_PER_WATT, XYZ_TO_RGB, x_bar, y_bar, z_bar};
+pub use observer::LUMENS_PER_WATT;
+pub(crate) use observer::{XYZ_TO_RGB, x_bar, y_bar, z_bar};
 pub use rgb::{Rgb, luminance, srgb_decode, srgb_encode};
 pub use spectrum::Spectrum;

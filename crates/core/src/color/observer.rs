@@ -6,7 +6,7 @@ pub(crate) const XYZ_TO_RGB: [[f64; 3]; 3] =
     [[3.240_97, -1.537_383, -0.498_611], [-0.969_244, 1.875_968, 0.041_555], [0.055_63, -0.203_977, 1.056_972]];
 
 /// Luminous efficacy of light that is even from 370 to 730 nm, lm / W.
-pub(crate) const LUMENS_PER_WATT: f32 = 683.0 * 106.86 / 360.0;
+pub const LUMENS_PER_WATT: f32 = 683.0 * 106.86 / 360.0;
 
 /// A Gaussian with one width on either side, each as its inverse.
 fn lobe(nm: f64, center: f64, left: f64, right: f64) -> f64 {

@@ -152,10 +152,7 @@ impl MaterialDesc {
     /// other materials it is that of nothing.
     #[inline]
     pub fn bsdf(&self, textures: &impl Textures) -> Bsdf {
-        match self {
-            Self::Lambertian(m) => Bsdf::Lambertian(m.bsdf(textures)),
-            _ => self.any_bsdf(textures),
-        }
+        if let Self::Lambertian(m) = self { Bsdf::Lambertian(m.bsdf(textures)) } else { self.any_bsdf(textures) }
     }
 
     /// Out of line: the room that long lobes take on the stack would cost the shortest one time.

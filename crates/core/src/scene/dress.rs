@@ -96,7 +96,7 @@ impl Scene {
     pub(super) fn meet(&self, ray: &Ray) -> Option<(Ray, Hit)> {
         let mut ray = *ray;
         loop {
-            let is_round = |hit: &Hit| self.objects[self.object_of(hit) as usize].is_round;
+            let is_round = |hit: &Hit| self.objects[self.object_of::<false>(hit) as usize].is_round;
             let hit = self.bvh.intersect_where(&ray, |hit| is_round(hit) || self.is_there(&ray, hit))?;
             if !is_round(&hit) || self.is_there(&ray, &hit) {
                 return Some((ray, hit));

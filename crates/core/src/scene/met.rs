@@ -23,9 +23,8 @@ pub(crate) struct Met<'s> {
 impl<'s> Met<'s> {
     #[inline(always)]
     pub(super) fn new<const PLAIN: bool>(scene: &'s Scene, hit: &Hit, time: f32) -> Self {
+        let (object, uv) = (&scene.objects[scene.object_of::<PLAIN>(hit) as usize], Vec2::new(hit.u, hit.v));
         let is_moved = !PLAIN && hit.instances[0] != Hit::NO_INSTANCE;
-        let place = if is_moved { hit.instances[0] } else { hit.prim };
-        let (object, uv) = (&scene.objects[scene.object_of[place as usize] as usize], Vec2::new(hit.u, hit.v));
         let primitive = if is_moved { hit.prim } else { hit.prim - object.first_primitive };
         Self { scene, object, primitive, uv, time }
     }

@@ -264,9 +264,9 @@ impl Scene {
 
     /// Index of the object that was hit. What moves is an object of its own tree.
     #[inline(always)]
-    fn object_of(&self, hit: &Hit) -> u32 {
+    fn object_of<const PLAIN: bool>(&self, hit: &Hit) -> u32 {
         let [instance, ..] = hit.instances;
-        self.object_of[if instance == Hit::NO_INSTANCE { hit.prim } else { instance } as usize]
+        self.object_of[if PLAIN || instance == Hit::NO_INSTANCE { hit.prim } else { instance } as usize]
     }
 
     /// The material that a shape names.
@@ -279,7 +279,7 @@ impl Scene {
     pub(crate) fn look(&self, ray: &Ray) -> Option<Look<'_>> {
         let (last, hit) = self.meet(ray)?;
         let si = self.interaction::<false>(&last, &hit);
-        let object = self.object_of(&hit);
+        let object = self.object_of::<false>(&hit);
         let [object, material] = [object, self.objects[object as usize].material].map(|index| index + 1);
         let t = last.o.distance(ray.o) + hit.t;
         Some(Look { si, t, uv: si.uv(), ids: Ids { object, material, instance: 0 } })

@@ -6,21 +6,20 @@ use crate::desc::SceneDesc;
 
 /// A box around what there is.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Extent {
+pub(super) struct Extent {
     /// The least of each coordinate, metres.
-    pub min: Vec3,
+    pub(super) min: Vec3,
     /// The greatest of each coordinate, metres.
-    pub max: Vec3,
+    pub(super) max: Vec3,
 }
 
 impl Extent {
-    /// Of all shapes; none if there are none. A few vertices that are far from all others do not count.
-    pub fn of(desc: &SceneDesc) -> Option<Self> {
+    /// Of points; none if there are none. A few that are far from all others do not count.
+    pub(super) fn of(points: &[Vec3]) -> Option<Self> {
         /// So many parts of all points, at either end of each axis, may be strays.
         const STRAYS: f32 = 0.005;
         /// They are, if they make the box so many times as large.
         const MUCH: f32 = 3.0;
-        let points = points(desc);
         let whole = Self::around(points.iter().copied())?;
         let strays = (points.len() as f32 * STRAYS) as usize;
         let mut middle = whole;
@@ -39,12 +38,12 @@ impl Extent {
     }
 
     /// Its middle.
-    pub fn center(&self) -> Vec3 {
+    pub(super) fn center(&self) -> Vec3 {
         0.5 * self.min + 0.5 * self.max
     }
 
     /// From corner to corner, metres.
-    pub fn size(&self) -> f32 {
+    pub(super) fn size(&self) -> f32 {
         (self.max - self.min).length()
     }
 
@@ -83,7 +82,7 @@ mod tests {
     fn of(vertices: Vec<[f32; 3]>) -> Option<Extent> {
         let mut desc = SceneDesc::default();
         desc.shape.mesh.push(MeshDesc { vertices, ..MeshDesc::default() });
-        Extent::of(&desc)
+        Extent::of(&points(&desc))
     }
 
     #[test]

@@ -7,9 +7,8 @@
 use glam::Vec3;
 
 use crate::camera::CameraDesc;
-use crate::desc::SceneDesc;
 use crate::math::sin_cos_turns;
-use crate::setup::extent::{Extent, points};
+use crate::setup::extent::Extent;
 
 /// Vertical angle of view, degrees: that of a portrait lens.
 const VFOV: f32 = 28.0;
@@ -17,7 +16,7 @@ const VFOV: f32 = 28.0;
 const FILL: f32 = 0.74;
 
 /// A camera in front of what there is, for pictures so many times as wide as high.
-pub(super) fn in_front(desc: &SceneDesc, extent: &Extent, aspect: f32) -> CameraDesc {
+pub(super) fn in_front(points: &[Vec3], extent: &Extent, aspect: f32) -> CameraDesc {
     let center = extent.center();
     let back = direction(extent);
     let right = Vec3::Y.cross(back).normalize();
@@ -27,8 +26,8 @@ pub(super) fn in_front(desc: &SceneDesc, extent: &Extent, aspect: f32) -> Camera
     let t_x = t_y * aspect;
     // Right, left, upper and lower side.
     let mut sides = [f32::NEG_INFINITY; 4];
-    for p in points(desc).into_iter().filter(|&p| extent.holds(p)) {
-        let p = p - center;
+    for p in points.iter().filter(|&&p| extent.holds(p)) {
+        let p = *p - center;
         let (x, y, z) = (p.dot(right), p.dot(up), p.dot(back));
         let side = [z + x / t_x, z - x / t_x, z + y / t_y, z - y / t_y];
         sides = [0, 1, 2, 3].map(|i| sides[i].max(side[i]));
@@ -67,11 +66,14 @@ mod tests {
     use glam::Vec2;
 
     use super::*;
+    use crate::desc::SceneDesc;
+    use crate::setup::extent::points;
     use crate::shape::MeshDesc;
 
     /// The box of everything in the picture, from −1 to 1 each way.
     fn framed(desc: &SceneDesc, aspect: f32) -> [Vec2; 2] {
-        let camera = in_front(desc, &Extent::of(desc).unwrap(), aspect);
+        let points = points(desc);
+        let camera = in_front(&points, &Extent::of(&points).unwrap(), aspect);
         let [from, at] = [camera.look_from, camera.look_at].map(|p| Vec3::from(p).as_dvec3());
         let back = (from - at).normalize();
         let right = glam::DVec3::Y.cross(back).normalize();
@@ -82,7 +84,7 @@ mod tests {
             assert!(depth > 0.0, "in front of the eye");
             Vec2::new((p.dot(right) / depth / t) as f32 / aspect, (p.dot(back.cross(right)) / depth / t) as f32)
         };
-        let places: Vec<_> = points(desc).into_iter().map(place).collect();
+        let places: Vec<_> = points.into_iter().map(place).collect();
         [places.iter().copied().reduce(Vec2::min).unwrap(), places.iter().copied().reduce(Vec2::max).unwrap()]
     }
 

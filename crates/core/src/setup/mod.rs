@@ -8,10 +8,10 @@ mod eye;
 mod studio;
 
 use crate::desc::SceneDesc;
-use crate::light::EnvironmentDesc;
 use crate::light::sky::SkyDesc;
+use crate::light::{EnvironmentDesc, ImageEnvironment};
 
-pub use extent::Extent;
+use extent::Extent;
 
 /// What a file says.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
@@ -40,7 +40,7 @@ pub enum Surroundings {
     /// What the file has.
     None,
     /// Of a picture.
-    Image(Box<EnvironmentDesc>),
+    Image(ImageEnvironment),
 }
 
 /// How a model is shown.
@@ -58,7 +58,7 @@ pub struct Setup {
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Assumed {
     /// Each in a few words.
-    pub what: Vec<String>,
+    pub what: Vec<&'static str>,
     /// Whether the light is that of the studio, whose brightness is known.
     pub is_studio: bool,
 }
@@ -67,33 +67,34 @@ impl Setup {
     /// Adds to a model what it lacks.
     pub fn complete(&self, desc: &mut SceneDesc, given: Given) -> Assumed {
         let mut assumed = Assumed::default();
-        let Some(extent) = Extent::of(desc) else { return assumed };
+        let points = extent::points(desc);
+        let Some(extent) = Extent::of(&points) else { return assumed };
         if self.own_camera || !given.camera {
             let aspect = desc.render.width as f32 / desc.render.height.max(1) as f32;
-            desc.camera = eye::in_front(desc, &extent, aspect);
-            assumed.what.push("a camera in front".to_owned());
+            desc.camera = eye::in_front(&points, &extent, aspect);
+            assumed.what.push("a camera in front");
         }
         let surroundings = match &self.surroundings {
-            Surroundings::Auto if given.light => Surroundings::None,
-            Surroundings::Auto => Surroundings::Studio,
-            said => said.clone(),
+            Surroundings::Auto if given.light => &Surroundings::None,
+            Surroundings::Auto => &Surroundings::Studio,
+            said => said,
         };
-        match &surroundings {
+        match surroundings {
             Surroundings::Auto | Surroundings::None => {}
             Surroundings::Studio => {
-                let [from, at] = [desc.camera.look_from, desc.camera.look_at];
-                desc.environment = studio::environment(from, at);
-                (assumed.is_studio, assumed.what) = (true, [assumed.what, vec!["a studio".to_owned()]].concat());
+                desc.environment = studio::environment(desc.camera.look_from, desc.camera.look_at);
+                assumed.is_studio = true;
+                assumed.what.push("a studio");
             }
             Surroundings::Sky => {
                 desc.environment = EnvironmentDesc::Sky(SkyDesc::default());
-                assumed.what.push("a sky".to_owned());
+                assumed.what.push("a sky");
             }
-            Surroundings::Image(image) => desc.environment = (**image).clone(),
+            Surroundings::Image(image) => desc.environment = EnvironmentDesc::Image(image.clone()),
         }
         if self.ground.unwrap_or(matches!(surroundings, Surroundings::Studio | Surroundings::Sky)) {
             studio::add_ground(desc, &extent);
-            assumed.what.push("a ground".to_owned());
+            assumed.what.push("a ground");
         }
         assumed
     }

@@ -14,7 +14,7 @@ use crate::film::Image;
 use crate::light::{EnvironmentDesc, ImageEnvironment};
 use crate::material::{Mask, MaterialDesc, Principled};
 use crate::names::Name;
-use crate::setup::Extent;
+use crate::setup::extent::Extent;
 use crate::shape::QuadDesc;
 use crate::texture::{Color, Gradient, Interpolation, Mapping, Ramp, Scalar, Space, Stop, TextureDesc};
 
@@ -149,7 +149,9 @@ pub(super) fn add_ground(desc: &mut SceneDesc, extent: &Extent) {
 
 /// A name that no material and no texture has.
 fn unused(desc: &SceneDesc, name: &str) -> String {
-    let taken = |name: &String| desc.material.contains_key(name) || desc.texture.contains_key(name);
-    let names = std::iter::once(name.to_owned()).chain((2..).map(|n| format!("{name}-{n}")));
-    names.into_iter().find(|name| !taken(name)).unwrap_or_else(|| name.to_owned())
+    let mut unused = name.to_owned();
+    while desc.material.contains_key(&unused) || desc.texture.contains_key(&unused) {
+        unused.push('\'');
+    }
+    unused
 }

@@ -20,14 +20,14 @@ use eyebeam_core::setup::{Assumed, Given};
 use eyebeam_io::Warning;
 use eyebeam_io::image::ImageFormat;
 use eyebeam_io::output::check_writable;
-use eyebeam_io::scene::{Override, SceneFile};
+use eyebeam_io::scene::{Override, SceneFile, read_with};
 
 use aov::Aovs;
 use stats::{Done, Phases, Provenance, Stats};
 
 use crate::args::RenderArgs;
 use crate::command::target::Target;
-use crate::command::{is_standard, read_scene, setup, write};
+use crate::command::{is_standard, setup, told, write};
 use crate::error::Error;
 use crate::progress::{Progress, State, duration, say};
 use crate::signals::Signals;
@@ -36,8 +36,7 @@ pub(super) fn run(args: &RenderArgs) -> Result<(), Error> {
     let mut target = target(args)?;
     let mut phases = Phases::default();
     let clock = Instant::now();
-    let SceneFile { mut desc, warnings, given } = describe(args)?;
-    let Assumed { what, is_studio } = setup::complete(&mut desc, given, &args.setup)?;
+    let (SceneFile { desc, warnings, given }, Assumed { what, is_studio }) = describe(args)?;
     if !what.is_empty() && !args.quiet {
         say(&format!("made up: {}", what.join(", ")));
     }
@@ -97,14 +96,14 @@ pub(super) fn run(args: &RenderArgs) -> Result<(), Error> {
     signal.map_or(Ok(()), |signal| Err(Error::Signal(signal)))
 }
 
-/// The scene with the command line's settings in it.
-fn describe(args: &RenderArgs) -> Result<SceneFile, Error> {
+/// The scene with the command line's settings in it, and what was made up for it.
+fn describe(args: &RenderArgs) -> Result<(SceneFile, Assumed), Error> {
     let mut settings = args.set.clone();
     // Which lights are found depends on it, so the reader is to know.
     let named = args.integrator.and_then(|kind| IntegratorKind::NAMES.iter().find(|(_, named)| *named == kind));
     settings
         .extend(named.map(|(name, _)| Override { path: "render.integrator".to_owned(), value: (*name).to_owned() }));
-    let mut file = read_scene(&args.scene, &args.model.options(&settings), args.strict, args.quiet)?;
+    let mut file = read_with(&args.scene, &args.model.options(&settings))?;
     let render = &mut file.desc.render;
     (render.width, render.height) = args.resolution.unwrap_or((render.width, render.height));
     render.spp = args.spp.unwrap_or(render.spp);
@@ -112,7 +111,8 @@ fn describe(args: &RenderArgs) -> Result<SceneFile, Error> {
     render.seed = args.seed.unwrap_or(render.seed);
     render.transparent |= args.transparent;
     render.clamp = args.clamp.unwrap_or(render.clamp);
-    Ok(file)
+    let assumed = setup::complete(&mut file, &args.setup)?;
+    Ok((told(file, args.strict, args.quiet)?, assumed))
 }
 
 /// Film and picture, what the lens needs for each pixel, and the encoded file.

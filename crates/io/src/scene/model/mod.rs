@@ -3,6 +3,7 @@
 //! A model becomes a [`SceneDesc`] whose meshes and pictures are loaded. It seldom has a camera or light;
 //! [`Given`] tells what it has, and [`setup`](eyebeam_core::setup) makes the rest.
 
+mod folder;
 mod gltf;
 mod lines;
 mod obj;
@@ -15,7 +16,10 @@ use std::path::Path;
 
 use eyebeam_core::desc::{RenderDesc, SceneDesc};
 use eyebeam_core::light::{EnvironmentDesc, NoLight};
+use eyebeam_core::material::{Lambertian, MaterialDesc};
+use eyebeam_core::names::Name;
 use eyebeam_core::setup::Given;
+use eyebeam_core::texture::{Color, TextureDesc, VertexColor};
 
 use crate::error::{Diagnostic, Error};
 use crate::scene::source::Sources;
@@ -58,6 +62,15 @@ impl Model {
     fn new() -> Self {
         let desc = SceneDesc { environment: EnvironmentDesc::None(NoLight::default()), ..SceneDesc::default() };
         Self { desc, ..Self::default() }
+    }
+
+    /// The material that has the colours of vertices, of which it is made unless the file has one of this name.
+    fn vertex_color(&mut self) -> String {
+        let name = "vertex-color".to_owned();
+        let albedo = Color::Texture(Name::new(&name));
+        self.desc.texture.insert(name.clone(), TextureDesc::VertexColor(VertexColor::default()));
+        self.desc.material.entry(name.clone()).or_insert(MaterialDesc::Lambertian(Lambertian { albedo }));
+        name
     }
 }
 

@@ -3,6 +3,7 @@
 use std::fs;
 use std::path::Path;
 
+use eyebeam_core::color::LUMENS_PER_WATT;
 use eyebeam_core::material::{MaterialDesc, Principled};
 use eyebeam_core::setup::Given;
 use eyebeam_core::shape::MeshData;
@@ -206,8 +207,7 @@ fn instances_are_copies() {
 
 #[test]
 fn cameras_and_lights_are_given() {
-    let lights =
-        json!({ "KHR_lights_punctual": { "lights": [{ "type": "point", "intensity": 683.0, "color": [1, 0.5, 0] }] } });
+    let lights = json!({ "KHR_lights_punctual": { "lights": [{ "type": "point", "intensity": LUMENS_PER_WATT, "color": [1, 0.5, 0] }] } });
     let file = model(&with(&[
         ("/nodes/1", json!({ "camera": 0, "translation": [0, 1, 5] })),
         ("/nodes/2", json!({ "translation": [0, 3, 0], "extensions": { "KHR_lights_punctual": { "light": 0 } } })),
@@ -245,7 +245,7 @@ fn materials_become_principled() {
     assert_eq!((rgb(&p.base_color), p.specular_ior), ([0.5, 0.25, 1.0], 1.75));
     assert_eq!((p.base_metalness.number(), p.specular_roughness.number()), (Some(0.25), Some(0.75)));
     assert_eq!((p.coat_weight.number(), p.coat_roughness.number()), (Some(0.5), Some(0.125)));
-    assert_eq!((p.emission_luminance, rgb(&p.emission_color)), (406.0, [1.0, 0.5, 0.0]));
+    assert_eq!((p.emission_luminance, rgb(&p.emission_color)), (2.0 * LUMENS_PER_WATT, [1.0, 0.5, 0.0]));
     assert_eq!((p.thin_film_weight.number(), p.thin_film_thickness.number()), (Some(1.0), Some(0.5)));
     assert_eq!((p.fuzz_weight.number(), rgb(&p.fuzz_color)), (Some(0.5), [1.0, 0.5, 0.0]));
     assert_eq!((p.transmission_weight.number(), p.transmission_depth, p.geometry_thin_walled), (Some(0.5), 3.0, false));
@@ -293,10 +293,10 @@ fn pictures_are_read_from_data_and_missing_ones_told_of() {
     assert!(matches!(&file.desc.texture[name.name()], TextureDesc::Image(image) if image.pixels.is_some()));
     assert_eq!(p.specular_roughness.number(), None);
     let file = model(&changes("nowhere%20at%20all.png".to_owned()));
-    assert!(file.warnings[0].message.contains("`nowhere%20at%20all.png`: cannot be read"), "{}", file.warnings[0]);
+    assert!(file.warnings[0].message.contains("`nowhere%20at%20all.png` is not read: "), "{}", file.warnings[0]);
     assert_eq!(principled(&file).base_color.rgb().unwrap().0, [1.0; 3]);
     let file = model(&changes("../../etc/passwd".to_owned()));
-    assert!(file.warnings[0].message.contains("is outside of the model's folder"), "{}", file.warnings[0]);
+    assert!(file.warnings[0].message.contains("leads out of the folder of the model"), "{}", file.warnings[0]);
 }
 
 #[test]
@@ -316,7 +316,7 @@ fn what_is_wrong_is_said() {
         ("/bufferViews/1/byteOffset", json!(80), "buffer view 1 reaches beyond the 92 bytes of buffer 0"),
         ("/bufferViews/1/buffer", json!(2), "there is no buffer 2"),
         ("/buffers/0/byteLength", json!(1000), "buffer 0 has 92 of 1000 bytes"),
-        ("/buffers/0/uri", json!("../x.bin"), "`../x.bin` is outside of the model's folder"),
+        ("/buffers/0/uri", json!("../x.bin"), "`../x.bin` is not read: its name leads out of the folder of the model"),
         ("/meshes/0/primitives/0/mode", json!(9), "the mode 9 of a mesh does not exist"),
     ];
     for (pointer, value, expected) in cases {

@@ -12,40 +12,48 @@ use crate::scene::model::gltf::meshopt::Compressed;
 /// Without a buffer an accessor is all zeros: of no more than these.
 const MOST_ZEROS: usize = 1 << 24;
 
-/// A file's JSON and all that it names.
-pub(super) struct Buffers<'a> {
-    pub(super) document: &'a Document,
-    /// Bytes of each buffer.
-    pub(super) bytes: &'a [Vec<u8>],
-    /// Bytes of the buffer views that were compressed.
+/// The bytes that a file's JSON speaks of.
+pub(super) struct Bytes {
+    /// Of each buffer.
+    buffers: Vec<Vec<u8>>,
+    /// Of the buffer views that were compressed.
     decoded: BTreeMap<usize, Vec<u8>>,
 }
 
-impl<'a> Buffers<'a> {
-    /// Those of a file, of whose views all that are compressed are decoded.
-    pub(super) fn new(document: &'a Document, bytes: &'a [Vec<u8>]) -> Result<Self, FileError> {
+impl Bytes {
+    /// Decodes all buffer views that are compressed.
+    pub(super) fn new(document: &Document, buffers: Vec<Vec<u8>>) -> Result<Self, FileError> {
         let compressed =
             document.buffer_views.iter().enumerate().filter_map(|(index, view)| {
                 Some((index, get::<Compressed>(&view.extensions, "EXT_meshopt_compression")?))
             });
         let decode = |(index, part): (usize, Compressed)| {
-            let code = bytes.get(part.buffer).and_then(|bytes| bytes.get(part.byte_offset..)?.get(..part.byte_length));
+            let code =
+                buffers.get(part.buffer).and_then(|bytes| bytes.get(part.byte_offset..)?.get(..part.byte_length));
             let code = code.ok_or_else(|| FileError::new("it reaches beyond its buffer"));
             let decoded = code.and_then(|code| part.decode(code));
             let of = |e: FileError| FileError { message: format!("buffer view {index}: {}", e.message), ..e };
             Ok((index, decoded.map_err(of)?))
         };
         let decoded = compressed.map(decode).collect::<Result<_, FileError>>()?;
-        Ok(Self { document, bytes, decoded })
+        Ok(Self { buffers, decoded })
     }
+}
 
+/// A file's JSON and all that it names.
+pub(super) struct Buffers<'a> {
+    pub(super) document: &'a Document,
+    pub(super) bytes: &'a Bytes,
+}
+
+impl Buffers<'_> {
     /// Bytes of a buffer view.
     pub(super) fn view(&self, index: usize) -> Result<&[u8], FileError> {
         let view = self.document.buffer_views.get(index).ok_or_else(|| missing("buffer view", index))?;
-        if let Some(decoded) = self.decoded.get(&index) {
+        if let Some(decoded) = self.bytes.decoded.get(&index) {
             return Ok(decoded);
         }
-        let bytes = self.bytes.get(view.buffer).ok_or_else(|| missing("buffer", view.buffer))?;
+        let bytes = self.bytes.buffers.get(view.buffer).ok_or_else(|| missing("buffer", view.buffer))?;
         let range = bytes.get(view.byte_offset..).and_then(|rest| rest.get(..view.byte_length));
         range.ok_or_else(|| {
             let length = bytes.len();
@@ -55,6 +63,11 @@ impl<'a> Buffers<'a> {
 
     fn accessor(&self, index: usize) -> Result<&Accessor, FileError> {
         self.document.accessors.get(index).ok_or_else(|| missing("accessor", index))
+    }
+
+    /// Whether an accessor has no numbers of its own.
+    pub(super) fn is_empty(&self, index: usize) -> bool {
+        self.document.accessors.get(index).is_some_and(|accessor| accessor.buffer_view.is_none())
     }
 
     /// Elements of up to N numbers; what there is less of is `rest`.
@@ -78,7 +91,7 @@ impl<'a> Buffers<'a> {
         if component == Component::Float {
             return Err(FileError::new(format!("accessor {index} holds no whole numbers")));
         }
-        self.elements(index, 0, |bytes| component.whole(bytes))
+        self.elements(index, 0, Component::raw)
     }
 
     fn elements<T: Copy, const N: usize>(
@@ -115,9 +128,8 @@ impl<'a> Buffers<'a> {
         if let Some(sparse) = &accessor.sparse {
             let places = self.sparse(&sparse.indices, sparse.count, None, index)?;
             let values = self.sparse(&sparse.values, sparse.count, Some(component * size), index)?;
-            let whole = Component::of(sparse.indices.component_type, index)?;
             for (place, value) in places.zip(values) {
-                let place = whole.whole(place) as usize;
+                let place = Component::raw(place) as usize;
                 let slot = elements.get_mut(place);
                 *slot
                     .ok_or_else(|| FileError::new(format!("accessor {index} replaces element {place} of {count}")))? =
@@ -209,10 +221,6 @@ impl Component {
         u32::from_le_bytes(word)
     }
 
-    fn whole(self, bytes: &[u8]) -> u32 {
-        Self::raw(bytes)
-    }
-
     fn float(self, bytes: &[u8], normalized: bool) -> f32 {
         let raw = Self::raw(bytes);
         let (value, most) = match self {
@@ -233,7 +241,8 @@ mod tests {
 
     fn read<const N: usize>(json: &str, bytes: &[u8]) -> Result<Vec<[f32; N]>, FileError> {
         let document: Document = serde_json::from_str(json).unwrap();
-        Buffers::new(&document, &[bytes.to_vec()]).unwrap().floats(0, 9.0)
+        let bytes = Bytes::new(&document, vec![bytes.to_vec()]).unwrap();
+        Buffers { document: &document, bytes: &bytes }.floats(0, 9.0)
     }
 
     #[test]

@@ -3,13 +3,14 @@
 //! A GLB is a header of twelve bytes and chunks: first the JSON, then at most one of bytes. Khronos, glTF 2.0 Specification, 2021, §4.
 
 use std::borrow::Cow;
-use std::path::{Component, Path, PathBuf};
+use std::path::Path;
 
 use base64::Engine;
 use base64::engine::general_purpose::STANDARD;
 
 use crate::error::{At, FileError};
 use crate::file;
+use crate::scene::model::folder;
 
 /// The JSON text and the bytes behind it in a file.
 pub(super) struct Container<'a> {
@@ -58,33 +59,9 @@ pub(super) fn resolve(uri: &str, folder: &Path) -> Result<Vec<u8>, FileError> {
         };
         return STANDARD.decode(data.trim_end()).map_err(|e| FileError::new(format!("a data URI is damaged: {e}")));
     }
-    let path = below(&decode(uri), folder)?;
-    file::read(&path).map_err(|e| FileError::new(format!("`{uri}`: {}", cause(&e))))
-}
-
-fn cause(error: &crate::error::Error) -> String {
-    match error {
-        crate::error::Error::Io { source, .. } => format!("cannot be read: {source}"),
-        other => other.to_string().trim_start_matches("error: ").to_owned(),
-    }
-}
-
-/// A name relative to a folder, which does not lead out of it.
-fn below(name: &str, folder: &Path) -> Result<PathBuf, FileError> {
-    let outside = || {
-        FileError::new(format!("`{name}` is outside of the model's folder")).hint("put it beside the model or below")
-    };
-    let is_inside = |c: Component<'_>| matches!(c, Component::Normal(_) | Component::CurDir);
-    if name.contains("://") || !Path::new(name).components().all(is_inside) {
-        return Err(outside());
-    }
-    let folder = if folder.as_os_str().is_empty() { Path::new(".") } else { folder };
-    let path = folder.join(name);
-    // A link may lead out, too. What does not exist is told of when it is read.
-    match (path.canonicalize(), folder.canonicalize()) {
-        (Ok(real), Ok(root)) if !real.starts_with(&root) => Err(outside()),
-        _ => Ok(path),
-    }
+    let path = folder::below(folder, Path::new(&*decode(uri)));
+    let bytes = path.and_then(|path| Ok(file::read(&path)?));
+    bytes.map_err(|e| FileError { message: format!("`{uri}` is not read: {}", e.message), ..e })
 }
 
 /// Without `%20` and the like; what is none stays.
@@ -119,13 +96,8 @@ mod tests {
         assert_eq!(decode("a%20b%2Fc%zz%4"), "a b/c%zz%4");
         assert_eq!(resolve("data:application/octet-stream;base64,AQID", Path::new("")).unwrap(), [1, 2, 3]);
         assert!(resolve("data:text/plain,abc", Path::new("")).is_err());
-    }
-
-    #[test]
-    fn names_do_not_lead_out() {
-        for bad in ["../a.bin", "/etc/passwd", "a/../../b", "https://a.b/c.bin", "..%2Fa.bin"] {
-            let error = resolve(bad, Path::new("models")).unwrap_err();
-            assert!(error.message.ends_with("is outside of the model's folder"), "{bad}: {}", error.message);
-        }
+        // The name is looked at after that.
+        let error = resolve("..%2Fa.bin", Path::new(".")).unwrap_err();
+        assert_eq!(error.message, "`..%2Fa.bin` is not read: its name leads out of the folder of the model");
     }
 }

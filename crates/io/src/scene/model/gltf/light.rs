@@ -1,9 +1,8 @@
 //! `KHR_lights_punctual`: points, spots and suns, in candela and lux.
 //!
-//! Photometric numbers become radiometric ones by 683 lm / W, the most that light can have; a picture with automatic exposure
-//! does not depend on it. What is around is still missing: a file has no surroundings.
+//! Photometric numbers become radiometric ones as those of luminaires do, by the efficacy of light that is even over the visible. What is around is still missing: a file has no surroundings.
 
-use eyebeam_core::color::Rgb;
+use eyebeam_core::color::{LUMENS_PER_WATT, Rgb};
 use eyebeam_core::light::{DirectionalLight, PointLight, SpotLight};
 use glam::{DAffine3, DVec3};
 
@@ -15,14 +14,12 @@ use crate::scene::model::gltf::extensions::get;
 
 const NAME: &str = "KHR_lights_punctual";
 
-/// lm / W
-const EFFICACY: f32 = 683.0;
-
 pub(super) fn read(document: &Document, node: &Node, to_world: &DAffine3, model: &mut Model) -> Result<(), FileError> {
-    let Some(index) = node.extension_index(NAME, "light") else { return Ok(()) };
+    let index = node.extensions.get(NAME).and_then(|extension| extension.get("light")?.as_u64());
+    let Some(index) = index.map(|index| index as usize) else { return Ok(()) };
     let lights: PunctualLights = get(&document.extensions, NAME).unwrap_or_default();
     let light = lights.lights.get(index).ok_or_else(|| missing("light", index))?;
-    let intensity = light.intensity.unwrap_or(1.0) / EFFICACY;
+    let intensity = light.intensity.unwrap_or(1.0) / LUMENS_PER_WATT;
     let amount = Rgb(light.color.unwrap_or([1.0; 3]).map(|c| c * intensity));
     let position = to_world.translation.as_vec3().into();
     let ahead = (to_world.matrix3 * DVec3::NEG_Z).normalize_or(DVec3::NEG_Z);

@@ -20,7 +20,7 @@
 
 use std::collections::BTreeMap;
 
-use eyebeam_core::color::Rgb;
+use eyebeam_core::color::{LUMENS_PER_WATT, Rgb};
 use eyebeam_core::desc::SceneDesc;
 use eyebeam_core::material::{DiffuseTransmission, Emissive, Mask, MaterialDesc, Mix, NormalMap, Principled};
 use eyebeam_core::names::Name;
@@ -309,13 +309,11 @@ impl Maker<'_, '_> {
     }
 
     fn emission(&mut self, p: &mut Principled) {
-        /// cd / m² of a radiance of 1.
-        const LUMINANCE: f32 = 203.0;
         let factor = self.material.emissive_factor;
         let brightest = factor.into_iter().filter(|c| c.is_finite()).fold(0.0, f32::max);
         if brightest > 0.0 {
             let strength: EmissiveStrength = self.extension("KHR_materials_emissive_strength").unwrap_or_default();
-            let luminance = LUMINANCE * brightest * strength.emissive_strength.unwrap_or(1.0);
+            let luminance = LUMENS_PER_WATT * brightest * strength.emissive_strength.unwrap_or(1.0);
             p.emission_luminance = bounded(luminance, 0.0, 1e9);
             let color = factor.map(|c| c / brightest);
             p.emission_color = self.color(self.material.emissive_texture.as_ref(), color, Encoding::Auto, "emission");

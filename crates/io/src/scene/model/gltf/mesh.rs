@@ -75,13 +75,6 @@ fn finite(number: f32) -> f32 {
     if number.is_finite() { number } else { 0.0 }
 }
 
-impl Buffers<'_> {
-    /// Whether an accessor has no numbers of its own.
-    fn is_empty(&self, index: usize) -> bool {
-        self.document.accessors.get(index).is_some_and(|accessor| accessor.buffer_view.is_none())
-    }
-}
-
 fn triangles(
     buffers: &Buffers<'_>,
     indices: Option<usize>,

@@ -22,9 +22,9 @@ use std::sync::Arc;
 use eyebeam_core::shape::MeshDesc;
 use glam::{DAffine3, DMat4};
 
-use self::accessor::{Buffers, missing};
+use self::accessor::{Buffers, Bytes, missing};
 use self::container::Container;
-use self::document::{Document, Node};
+use self::document::Document;
 use self::material::Materials;
 use self::mesh::Pose;
 use self::texture::Pictures;
@@ -32,6 +32,7 @@ use crate::error::{At, Error, FileError};
 use crate::file;
 use crate::scene::ReadOptions;
 use crate::scene::model::Model;
+use crate::scene::model::folder;
 use crate::warning::Warning;
 
 /// Triangles of all meshes where they stand.
@@ -40,8 +41,7 @@ const MOST_TRIANGLES: usize = 100_000_000;
 pub(super) fn read(path: &Path, options: &ReadOptions<'_>) -> Result<Model, Error> {
     let bytes = file::read(path)?;
     let name = path.display().to_string();
-    let folder = path.parent().unwrap_or(Path::new(""));
-    read_bytes(&name, &bytes, folder, options).map_err(|e| e.of(&name))
+    read_bytes(&name, &bytes, folder::of(path), options).map_err(|e| e.of(&name))
 }
 
 fn read_bytes(name: &str, bytes: &[u8], folder: &Path, options: &ReadOptions<'_>) -> Result<Model, FileError> {
@@ -54,9 +54,9 @@ fn read_bytes(name: &str, bytes: &[u8], folder: &Path, options: &ReadOptions<'_>
     }
     let mut model = Model::new();
     extensions::check(&document, &mut model.warnings)?;
-    let bytes = load(&document, bytes, folder)?;
+    let bytes = Bytes::new(&document, load(&document, bytes, folder)?)?;
     pose(&mut document, &bytes, options, &mut model.warnings)?;
-    let buffers = Buffers::new(&document, &bytes)?;
+    let buffers = Buffers { document: &document, bytes: &bytes };
     let pictures = Pictures::read(&buffers, folder, &mut model.warnings);
     let mut materials = Materials::new(&document, &pictures, name);
     let placed = node::in_world(&document, document.scene.unwrap_or(0))?;
@@ -102,7 +102,7 @@ fn read_bytes(name: &str, bytes: &[u8], folder: &Path, options: &ReadOptions<'_>
 /// Moves nodes to where an animation has them; of one that nobody asked for there is a warning.
 fn pose(
     document: &mut Document,
-    bytes: &[Vec<u8>],
+    bytes: &Bytes,
     options: &ReadOptions<'_>,
     warnings: &mut Vec<Warning>,
 ) -> Result<(), FileError> {
@@ -116,7 +116,7 @@ fn pose(
         return Ok(());
     };
     let animation = animation::find(document, name)?;
-    let changes = animation::sample(&Buffers::new(document, bytes)?, animation, options.at)?;
+    let changes = animation::sample(&Buffers { document, bytes }, animation, options.at)?;
     animation::apply(document, changes);
     Ok(())
 }
@@ -157,11 +157,4 @@ fn joints(
         Ok(to_world * DAffine3::from_mat4(DMat4::from_cols_array(&bound)))
     };
     skin.joints.iter().enumerate().map(joint).collect()
-}
-
-impl Node {
-    /// The index that an extension says.
-    fn extension_index(&self, name: &str, key: &str) -> Option<usize> {
-        self.extensions.get(name)?.get(key)?.as_u64().map(|index| index as usize)
-    }
 }

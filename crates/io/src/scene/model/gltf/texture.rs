@@ -11,7 +11,7 @@ use eyebeam_core::film::Wrap;
 use eyebeam_core::texture::{Encoding, Filter, ImageTexture, Mapping, Pixels};
 use rayon::prelude::*;
 
-use crate::error::{Error, FileError};
+use crate::error::FileError;
 use crate::image::{pixels_size, read_pixels_bytes};
 use crate::scene::assets::MAX_BYTES;
 use crate::scene::model::gltf::accessor::{Buffers, missing};
@@ -32,7 +32,7 @@ impl Pictures {
         let mut encoded = Vec::new();
         for index in sources {
             let bytes = bytes(buffers, folder, index).and_then(|bytes| {
-                taken += pixels_size("", &bytes).map_err(reason)?;
+                taken += pixels_size("", &bytes)?;
                 if taken > MAX_BYTES {
                     return Err(FileError::new(format!("the pictures take more than {} GiB", MAX_BYTES >> 30)));
                 }
@@ -42,7 +42,7 @@ impl Pictures {
         }
         let decoded: Vec<_> = encoded
             .into_par_iter()
-            .map(|(index, bytes)| (index, bytes.and_then(|bytes| read_pixels_bytes("", &bytes).map_err(reason))))
+            .map(|(index, bytes)| (index, bytes.and_then(|bytes| Ok(read_pixels_bytes("", &bytes)?))))
             .collect();
         let mut pictures = BTreeMap::new();
         for (index, picture) in decoded {
@@ -138,13 +138,6 @@ fn bytes(buffers: &Buffers<'_>, folder: &Path, index: usize) -> Result<Vec<u8>, 
         (Some(uri), _) => container::resolve(uri, folder),
         (None, Some(view)) => Ok(buffers.view(view)?.to_vec()),
         (None, None) => Err(FileError::new("it is nowhere")),
-    }
-}
-
-fn reason(error: Error) -> FileError {
-    match error {
-        Error::File(error) => error,
-        other => FileError::new(other.to_string()),
     }
 }
 

@@ -17,7 +17,7 @@
 //! - `Pm` metalness, `Ps` fuzz, `Pc` and `Pcr` coat and its roughness, `aniso` anisotropy; `map_Pr`, `map_Pm` and `map_Ps` take their
 //!   places.
 
-use eyebeam_core::color::Rgb;
+use eyebeam_core::color::{LUMENS_PER_WATT, Rgb};
 use eyebeam_core::film::Wrap;
 use eyebeam_core::material::{Bump, Mask, MaterialDesc, NormalMap, Principled};
 use eyebeam_core::names::Name;
@@ -27,9 +27,6 @@ use super::mtl::Mtl;
 use super::pictures::Pictures;
 use crate::scene::model::Model;
 use crate::warning::Warning;
-
-/// Candela per square metre of radiance 1, as [`Principled::emission_luminance`] tells.
-const LUMINANCE: f32 = 683.0 * 106.86 / 360.0;
 
 /// `Kd` of glass is no brighter.
 const ABOUT_BLACK: f32 = 0.05;
@@ -238,7 +235,7 @@ impl Maker<'_> {
         let color = if strongest > 0.0 { ke.unwrap_or_default().map(|c| c / strongest) } else { [1.0; 3] };
         let picture = self.tinted("ke", Some(color));
         let radiance = if strongest > 0.0 || picture.is_none() { strongest } else { 1.0 };
-        p.emission_luminance = (radiance * LUMINANCE).min(1e9);
+        p.emission_luminance = (radiance * LUMENS_PER_WATT).min(1e9);
         p.emission_color = picture.unwrap_or(Color::Rgb(Rgb(color)));
         radiance > 0.0
     }

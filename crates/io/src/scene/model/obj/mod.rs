@@ -15,15 +15,13 @@ use std::path::Path;
 use std::sync::Arc;
 
 use eyebeam_core::color::srgb_decode;
-use eyebeam_core::material::{Lambertian, MaterialDesc};
-use eyebeam_core::names::Name;
 use eyebeam_core::shape::MeshDesc;
-use eyebeam_core::texture::{Color, TextureDesc, VertexColor};
 use glam::{DVec3, Vec3};
 
 use crate::error::{At, Error, FileError};
 use crate::scene::ReadOptions;
 use crate::scene::model::Model;
+use crate::scene::model::folder;
 use crate::scene::model::lines::Lines;
 use crate::scene::model::skipped::Skipped;
 use crate::warning::Warning;
@@ -177,11 +175,11 @@ impl Reader {
         let Self { points, meshes, materials, libraries, skipped, .. } = self;
         let mut model = Model::new();
         model.warnings = skipped.warnings(file);
-        let folder = path.parent().filter(|folder| !folder.as_os_str().is_empty()).unwrap_or(Path::new("."));
+        let folder = folder::of(path);
         let mut pictures = Pictures::new(folder);
         let mut known = BTreeMap::new();
         for library in &libraries {
-            read_libraries(&pictures, library, &mut known, &mut model.warnings);
+            read_libraries(folder, library, &mut known, &mut model.warnings);
         }
         let mut made = BTreeMap::new();
         for ((number, _), data) in meshes.finish(&points) {
@@ -197,7 +195,7 @@ impl Reader {
                 });
                 outcome.clone()
             });
-            let material = material.or_else(|| (!data.colors.is_empty()).then(|| vertex_color(&mut model)));
+            let material = material.or_else(|| (!data.colors.is_empty()).then(|| model.vertex_color()));
             let data = Some(Arc::new(data));
             model.desc.shape.mesh.push(MeshDesc { file: Some(file.to_owned()), material, data, ..MeshDesc::default() });
         }
@@ -251,29 +249,17 @@ fn index(word: &str, count: usize, what: &str) -> Result<u32, FileError> {
     index.ok_or_else(|| FileError::new(format!("there is no {what} {number}: there are {count} before this line")))
 }
 
-/// The material of the colours of vertices.
-fn vertex_color(model: &mut Model) -> String {
-    let name = "vertex-color".to_owned();
-    let albedo = Color::Texture(Name::new(&name));
-    model.desc.texture.insert(name.clone(), TextureDesc::VertexColor(VertexColor::default()));
-    model.desc.material.entry(name.clone()).or_insert(MaterialDesc::Lambertian(Lambertian { albedo }));
-    name
-}
-
 /// Reads the libraries after a `mtllib`: one whose name has spaces, or several.
-fn read_libraries(pictures: &Pictures, names: &str, known: &mut BTreeMap<String, Mtl>, warnings: &mut Vec<Warning>) {
-    let names = if pictures.find(Path::new(""), names).is_ok() {
-        vec![names]
-    } else {
-        names.split_ascii_whitespace().collect()
-    };
+fn read_libraries(folder: &Path, names: &str, known: &mut BTreeMap<String, Mtl>, warnings: &mut Vec<Warning>) {
+    let find = |name: &str| folder::below(folder, Path::new(name));
+    let names = if find(names).is_ok() { vec![names] } else { names.split_ascii_whitespace().collect() };
     for name in names {
-        match pictures.find(Path::new(""), name) {
+        match find(name) {
             Ok(path) => match mtl::read(&path, name, known) {
                 Ok(found) => warnings.extend(found),
                 Err(e) => warnings.push(Warning::new(format!("`{name}` is not read: {e}"))),
             },
-            Err(why) => warnings.push(Warning::new(format!("`{name}` is not read: {why}"))),
+            Err(e) => warnings.push(Warning::new(format!("`{name}` is not read: {}", e.message))),
         }
     }
 }
