@@ -1,10 +1,10 @@
-//! What a scene's tree is built from: primitives that rest, and a tree of its own for each shape that is moved.
+//! What a scene's tree is built from: primitives that rest, and a tree of its own for each shape that moves or has copies.
 
 use std::sync::Arc;
 
 use eyebeam_bvh::{BuildError, Bvh, Primitive};
 
-use crate::motion::Motion;
+use crate::scene::placement::Placement;
 use crate::shape::ShapeDesc;
 
 /// Primitives and what those that are instances show.
@@ -31,21 +31,21 @@ impl eyebeam_bvh::Geometry for Geometry {
 }
 
 impl Geometry {
-    /// Adds a shape; says whether it is a sphere. If it is moved, `build` makes the tree that its motion shows.
+    /// Adds a shape; says whether it is a sphere. If it is placed elsewhere, `build` makes the tree that is shown there.
     pub(super) fn add(
         &mut self,
         shape: &dyn ShapeDesc,
-        motion: Option<&Motion>,
+        placement: Option<&Placement>,
         build: impl Fn(&Self) -> Result<Bvh, BuildError>,
     ) -> Result<bool, BuildError> {
         let first = self.primitives.len();
         shape.push_primitives(&mut self.primitives);
         self.primitive_count += self.primitives.len() - first;
         let is_round = matches!(self.primitives.get(first), Some(Primitive::Sphere(_)));
-        if let Some(motion) = motion {
+        if let Some(placement) = placement {
             let own = Self { primitives: self.primitives.split_off(first), ..Self::default() };
             self.objects.push(Arc::new(build(&own)?));
-            self.primitives.extend(motion.pieces().iter().copied().map(Primitive::Instance));
+            self.primitives.extend(placement.instances().iter().copied().map(Primitive::Instance));
         }
         Ok(is_round)
     }

@@ -31,7 +31,7 @@ impl Scene {
         for (i, primitive) in primitives.iter().enumerate() {
             let object = self.object_of[i] as usize;
             let Some(shine) = &shines[object] else { continue };
-            if self.objects[object].motion.is_some() {
+            if self.objects[object].placement.is_some() {
                 self.objects[object].first_light = Some(Lights::UNSAMPLED);
                 continue;
             }
@@ -67,7 +67,8 @@ impl Scene {
         let place = |i: u32| (i as f32 + 0.5) / PLACES as f32;
         for (x, y) in (0..PLACES).flat_map(|y| (0..PLACES).map(move |x| (place(x), place(y)))) {
             let Some((point, uv)) = place_on(primitive, Vec2::new(x, y)) else { continue };
-            let met = Met { scene: self, object, primitive: index - object.first_primitive, uv, time: 0.0 };
+            let met =
+                Met { scene: self, object, primitive: index - object.first_primitive, instance: 0, uv, time: 0.0 };
             sum += self.expected_radiance(object.material, &met.textures(&point));
         }
         sum * (1.0 / (PLACES * PLACES) as f32)

@@ -1,9 +1,9 @@
 //! Which part of a scene a ray has met.
 
 use eyebeam_bvh::{Hit, Ray, Surface};
-use glam::{Vec2, Vec3};
+use glam::{DAffine3, Vec2, Vec3};
 
-use crate::motion::Motion;
+use crate::scene::placement::Placement;
 use crate::scene::{Object, Scene};
 use crate::shape::{SurfacePoint, sphere_tangents, sphere_uv};
 use crate::texture::{TextureDesc, TexturePoint, TexturesAt};
@@ -14,6 +14,8 @@ pub(crate) struct Met<'s> {
     pub(super) scene: &'s Scene,
     pub(super) object: &'s Object,
     pub(super) primitive: u32,
+    /// Which of the object's instances, if it is placed.
+    pub(super) instance: u32,
     /// Coordinates on the primitive.
     pub(super) uv: Vec2,
     /// When.
@@ -24,9 +26,12 @@ impl<'s> Met<'s> {
     #[inline(always)]
     pub(super) fn new<const PLAIN: bool>(scene: &'s Scene, hit: &Hit, time: f32) -> Self {
         let (object, uv) = (&scene.objects[scene.object_of::<PLAIN>(hit) as usize], Vec2::new(hit.u, hit.v));
-        let is_moved = !PLAIN && hit.instances[0] != Hit::NO_INSTANCE;
-        let primitive = if is_moved { hit.prim } else { hit.prim - object.first_primitive };
-        Self { scene, object, primitive, uv, time }
+        let [instance, ..] = hit.instances;
+        let (primitive, instance) = match PLAIN || instance == Hit::NO_INSTANCE {
+            true => (hit.prim - object.first_primitive, 0),
+            false => (hit.prim, instance - object.first_primitive),
+        };
+        Self { scene, object, primitive, instance, uv, time }
     }
 
     /// When it was met.
@@ -38,9 +43,9 @@ impl<'s> Met<'s> {
     /// Where the ray met it.
     #[inline(always)]
     pub(super) fn point<const PLAIN: bool>(&self, ray: &Ray, hit: &Hit) -> SurfacePoint {
-        match (&self.object.single, &self.object.motion) {
+        match (&self.object.single, &self.object.placement) {
             (Some(single), _) => single.point(ray, hit),
-            (None, Some(motion)) if !PLAIN => self.moved_point(motion, ray, hit),
+            (None, Some(placement)) if !PLAIN => self.placed_point(placement, ray, hit),
             (None, _) => {
                 let surface = self.scene.bvh.surface(hit, ray.time);
                 SurfacePoint::new(&surface, ray, hit, self.object.smooth.as_ref(), self.primitive)
@@ -49,29 +54,34 @@ impl<'s> Met<'s> {
     }
 
     #[inline(never)]
-    fn moved_point(&self, motion: &Motion, ray: &Ray, hit: &Hit) -> SurfacePoint {
+    fn placed_point(&self, placement: &Placement, ray: &Ray, hit: &Hit) -> SurfacePoint {
         let surface = self.scene.bvh.surface(hit, ray.time);
-        let to_world = motion.to_world(self.time);
+        let to_world = placement.to_world(self.instance, self.time);
         SurfacePoint::moved(&surface, &to_world, ray, hit, self.object.smooth.as_ref(), self.primitive)
+    }
+
+    /// From the space of the shape to the world, if that is another one.
+    fn to_world(&self) -> Option<DAffine3> {
+        self.object.placement.as_ref().map(|placement| placement.to_world(self.instance, self.time))
     }
 
     /// The direction in the space of the shape of a normal in the world.
     fn normal_on_shape(&self, n: Vec3) -> Vec3 {
-        let Some(motion) = &self.object.motion else { return n };
-        let matrix = motion.to_world(self.time).matrix3;
+        let Some(to_world) = self.to_world() else { return n };
+        let matrix = to_world.matrix3;
         (matrix.transpose() * n.as_dvec3()).normalize().as_vec3()
     }
 
-    /// The place on the shape, where that is without motion, of a place in the world.
+    /// The place on the shape, as it says itself, of a place in the world.
     fn place_on_shape(&self, p: Vec3) -> Vec3 {
-        let Some(motion) = &self.object.motion else { return p };
-        motion.to_world(self.time).inverse().transform_point3(p.as_dvec3()).as_vec3()
+        let Some(to_world) = self.to_world() else { return p };
+        to_world.inverse().transform_point3(p.as_dvec3()).as_vec3()
     }
 
-    /// The way on the shape, where that is without motion, of a way in the world.
+    /// The way on the shape, as it says itself, of a way in the world.
     pub(super) fn way_on_shape(&self, by: Vec3) -> Vec3 {
-        let Some(motion) = &self.object.motion else { return by };
-        motion.to_world(self.time).inverse().transform_vector3(by.as_dvec3()).as_vec3()
+        let Some(to_world) = self.to_world() else { return by };
+        to_world.inverse().transform_vector3(by.as_dvec3()).as_vec3()
     }
 
     /// Coordinates on the shape: along the edges of a quad, longitude and latitude on a sphere, what a mesh says, or the weights
@@ -94,8 +104,7 @@ impl<'s> Met<'s> {
                 self.object.vertices.as_ref().and_then(|v| v.tangents(self.primitive, edges)).unwrap_or(edges)
             }
         };
-        let Some(motion) = &self.object.motion else { return on_shape };
-        let to_world = motion.to_world(self.time);
+        let Some(to_world) = self.to_world() else { return on_shape };
         on_shape.map(|tangent| to_world.transform_vector3(tangent.as_dvec3()).as_vec3())
     }
 

@@ -4,6 +4,7 @@ mod dress;
 mod geometry;
 mod lamps;
 mod met;
+mod placement;
 
 pub use eyebeam_bvh::{Bvh, Ray, Slot};
 
@@ -15,6 +16,7 @@ pub(crate) use self::met::Met;
 pub(crate) use self::dress::Dress;
 use self::dress::Holes;
 use self::geometry::Geometry;
+use self::placement::Placement;
 use crate::camera::{Camera, CameraDesc};
 use crate::color::Spectrum;
 use crate::desc::SceneDesc;
@@ -23,9 +25,9 @@ use crate::interaction::SurfaceInteraction;
 use crate::light::{EnvironmentSampling, LightSample, Lights};
 use crate::material::MaterialDesc;
 use crate::medium::Filling;
-use crate::motion::{Course, Motion};
+use crate::motion::Course;
 use crate::names::Numbers;
-use crate::shape::{Single, Smooth, VertexData};
+use crate::shape::{ShapeDesc, Single, Smooth, VertexData};
 use crate::texture::{self, TextureDesc};
 use crate::validate::Problem;
 
@@ -75,14 +77,14 @@ pub struct Scene {
 #[derive(Clone, Debug)]
 struct Object {
     material: u32,
-    /// Index of the first primitive, or of the first instance if it moves.
+    /// Index of the first primitive, or of the first instance if it is placed.
     first_primitive: u32,
     /// Number of the first primitive's light; the next ones follow.
     first_light: Option<u32>,
     smooth: Option<Smooth>,
-    /// If it is moved.
-    motion: Option<Box<Motion>>,
-    /// If it is one primitive that is not moved.
+    /// If it is placed elsewhere than it says.
+    placement: Option<Box<Placement>>,
+    /// If it is one primitive that is where it says.
     single: Option<Single>,
     /// What vertices say to textures, if they do.
     vertices: Option<Box<VertexData>>,
@@ -98,7 +100,7 @@ struct Object {
 
 impl Object {
     fn is_plain(&self) -> bool {
-        !self.is_dressed && !self.has_holes && self.motion.is_none()
+        !self.is_dressed && !self.has_holes && self.placement.is_none()
     }
 
     fn holes(&self) -> Holes {
@@ -171,9 +173,8 @@ impl Scene {
         let (mut geometry, mut object_of, mut objects) = (Geometry::default(), Vec::new(), Vec::new());
         for (_, _, shape) in desc.shape.iter() {
             let first = geometry.primitives.len();
-            let motion =
-                Course::new(&shape.motion(), shape.origin()).motion(desc.render.shutter, geometry.objects.len() as u32);
-            let is_round = geometry.add(shape, motion.as_ref(), build).map_err(refused)?;
+            let placement = placement(shape, desc.render.shutter, geometry.objects.len() as u32);
+            let is_round = geometry.add(shape, placement.as_ref(), build).map_err(refused)?;
             let material = numbers.get(shape.material().unwrap_or(SceneDesc::DEFAULT_MATERIAL));
             let wear = Wear::of(&materials, material);
             object_of.resize(geometry.primitives.len(), objects.len() as u32);
@@ -182,8 +183,8 @@ impl Scene {
                 first_primitive: first as u32,
                 first_light: None,
                 smooth: shape.smooth(),
-                single: shape.single().filter(|_| motion.is_none()),
-                motion: motion.map(Box::new),
+                single: shape.single().filter(|_| placement.is_none()),
+                placement: placement.map(Box::new),
                 vertices: shape.vertex_data().map(Box::new),
                 origin: shape.origin(),
                 is_round,
@@ -199,7 +200,8 @@ impl Scene {
         let fillings = fillings(&materials);
         let (primitive_count, shutter) = (geometry.primitive_count, desc.render.shutter);
         let is_plain = fillings.is_empty() && objects.iter().all(Object::is_plain);
-        let moves = objects.iter().filter_map(|object| object.motion.as_ref()).any(|motion| motion.is_moving());
+        let moves =
+            objects.iter().filter_map(|object| object.placement.as_ref()).any(|placement| placement.is_moving());
         let mut scene = Self {
             bvh,
             object_of,
@@ -280,9 +282,13 @@ impl Scene {
         let (last, hit) = self.meet(ray)?;
         let si = self.interaction::<false>(&last, &hit);
         let object = self.object_of::<false>(&hit);
+        let instance = match self.objects[object as usize].placement.as_deref() {
+            Some(Placement::Copies(_)) => Met::new::<false>(self, &hit, ray.time).instance + 1,
+            _ => 0,
+        };
         let [object, material] = [object, self.objects[object as usize].material].map(|index| index + 1);
         let t = last.o.distance(ray.o) + hit.t;
-        Some(Look { si, t, uv: si.uv(), ids: Ids { object, material, instance: 0 } })
+        Some(Look { si, t, uv: si.uv(), ids: Ids { object, material, instance } })
     }
 
     /// Whether anything is in the way of the ray before its `t_max`.
@@ -363,6 +369,12 @@ fn filling(materials: &[MaterialDesc], index: u32) -> Option<Filling> {
         MaterialDesc::Principled(layers) => layers.filling(),
         _ => parts.parts().into_iter().find_map(|(_, name)| filling(materials, name?.index())),
     }
+}
+
+/// Where a shape is, of whose primitives an object is made, if that is not where it says.
+fn placement(shape: &dyn ShapeDesc, shutter: [f32; 2], object: u32) -> Option<Placement> {
+    let motion = Course::new(&shape.motion(), shape.origin()).motion(shutter, object);
+    motion.map(Placement::Motion).or_else(|| Placement::of_copies(&shape.copies(), object))
 }
 
 /// About how many rays the picture takes.

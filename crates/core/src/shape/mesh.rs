@@ -16,7 +16,7 @@ use std::array;
 use std::sync::Arc;
 
 use eyebeam_bvh::{Primitive, Triangle};
-use glam::{DVec3, Vec2, Vec3};
+use glam::{Affine3A, DVec3, Mat3A, Vec2, Vec3};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
@@ -57,6 +57,11 @@ pub struct MeshDesc {
     /// About what its `motion` turns it, and from where it grows, metres, where it is without motion; [0, 0, 0] if absent.
     #[serde(deserialize_with = "optional_array", skip_serializing_if = "Option::is_none")]
     pub pivot: Option<[f32; 3]>,
+    /// Where its copies are, which share its memory; one where its vertices say if absent. Each is the three rows of a 3×4 matrix, of which
+    /// the last column is a place, metres: [1, 0, 0, 5, 0, 1, 0, 0, 0, 0, 1, 0] is five metres to the right. Copies neither move nor, if they
+    /// shine, light others but by chance.
+    #[serde(deserialize_with = "arrays", skip_serializing_if = "Vec::is_empty")]
+    pub instances: Vec<[f32; 12]>,
     /// What is in the file, once a reader has loaded it.
     #[serde(skip)]
     pub data: Option<Arc<MeshData>>,
@@ -152,6 +157,37 @@ impl MeshDesc {
         self.mesh().triangles.len()
     }
 
+    /// The vertices, once the file is loaded.
+    pub fn vertices(&self) -> &[[f32; 3]] {
+        self.mesh().vertices
+    }
+
+    /// From where the vertices are to where its copies are.
+    pub fn copies(&self) -> impl Iterator<Item = Affine3A> {
+        let affine = |rows: &[f32; 12]| {
+            let column = |i: usize| Vec3::new(rows[i], rows[4 + i], rows[8 + i]);
+            Affine3A {
+                matrix3: Mat3A::from_cols(column(0).into(), column(1).into(), column(2).into()),
+                translation: column(3).into(),
+            }
+        };
+        self.instances.iter().map(affine)
+    }
+
+    fn check_instances(&self, c: &mut Checker) {
+        c.within("instances", |c| {
+            for (i, rows) in
+                self.instances.iter().enumerate().filter(|(_, rows)| !rows.iter().copied().all(Checker::is_finite))
+            {
+                c.problem(i, format!("copy {i} is at {rows:?}"), Some("use finite numbers".to_owned()));
+            }
+        });
+        if !self.instances.is_empty() && !self.motion.is_empty() {
+            let hint = "move one mesh, or give its copies as meshes of their own".to_owned();
+            c.problem("motion", "a mesh with `instances` cannot move", Some(hint));
+        }
+    }
+
     /// The number of triangles without area, which are never hit.
     pub(crate) fn degenerate_count(&self) -> usize {
         let mesh = self.mesh();
@@ -234,6 +270,7 @@ impl ShapeDesc for MeshDesc {
             _ if self.data.is_some() => c.within("file", |c| self.mesh().check(c)),
             _ => self.mesh().check(c),
         }
+        self.check_instances(c);
     }
 
     fn push_primitives(&self, primitives: &mut Vec<Primitive>) {
@@ -247,6 +284,10 @@ impl ShapeDesc for MeshDesc {
 
     fn motion(&self) -> MotionDesc<'_> {
         MotionDesc { keys: &self.motion, pivot: self.pivot }
+    }
+
+    fn copies(&self) -> Vec<Affine3A> {
+        self.copies().collect()
     }
 
     fn smooth(&self) -> Option<Smooth> {

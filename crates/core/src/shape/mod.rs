@@ -11,7 +11,7 @@ mod smooth;
 mod sphere;
 
 use eyebeam_bvh::{Bvh, Hit, Primitive, Ray, Sphere, Surface};
-use glam::{Vec2, Vec3};
+use glam::{Affine3A, Vec2, Vec3};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
@@ -51,11 +51,15 @@ impl ShapesDesc {
 
     /// Notes if there are more primitives than can be sorted for rays.
     pub(crate) fn check_count(&self, c: &mut Checker) {
-        let triangles: usize = self.mesh.iter().map(MeshDesc::triangle_count).sum();
-        let count = self.sphere.len() + self.quad.len() + triangles;
+        let of_mesh = |mesh: &MeshDesc| mesh.triangle_count() + mesh.instances.len();
+        let count = self.sphere.len() + self.quad.len() + self.mesh.iter().map(of_mesh).sum::<usize>();
         if count > Bvh::MAX_PRIMITIVES {
             let hint = format!("at most {} are allowed", Bvh::MAX_PRIMITIVES);
-            c.problem("mesh", format!("the scene has {count} spheres, quads and triangles"), Some(hint));
+            c.problem(
+                "mesh",
+                format!("the scene has {count} spheres, quads, triangles and copies of meshes"),
+                Some(hint),
+            );
         }
     }
 }
@@ -73,6 +77,11 @@ pub(crate) trait ShapeDesc {
 
     /// How it moves.
     fn motion(&self) -> MotionDesc<'_>;
+
+    /// Where its copies are; none if it is where it says.
+    fn copies(&self) -> Vec<Affine3A> {
+        Vec::new()
+    }
 
     /// Normals that make it look round.
     fn smooth(&self) -> Option<Smooth> {

@@ -40,7 +40,8 @@ impl SurfacePoint {
                 let reach = corner.abs().max(edges[0].abs()).max(edges[1].abs()).max_element();
                 let [u, v] = edges.map(|edge| to_world.transform_vector3(edge));
                 let plane = Plane::new(to_world.transform_point3(*corner), [u, v]);
-                let flat = plane.within(reach_in_world(to_world, reach)).point(Vec2::new(hit.u, hit.v));
+                let (is_mirrored, reach) = (to_world.matrix3.determinant() < 0.0, reach_in_world(to_world, reach));
+                let flat = plane.seen_through(is_mirrored, reach).point(Vec2::new(hit.u, hit.v));
                 let Some(smooth) = smooth else {
                     return flat;
                 };

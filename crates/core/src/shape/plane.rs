@@ -30,9 +30,10 @@ impl Plane {
         Self { corner, edges, n: (normal * area_inv).as_vec3(), reach, margin: margin.min(1e-4) }
     }
 
-    /// The same, whose points are computed from lengths up to `reach`.
-    pub(super) fn within(self, reach: f64) -> Self {
-        Self { reach: self.reach.max(reach), ..self }
+    /// The same, seen through a transform that mirrors if `is_mirrored`; its points are computed from lengths up to `reach`.
+    pub(super) fn seen_through(self, is_mirrored: bool, reach: f64) -> Self {
+        let n = if is_mirrored { -self.n } else { self.n };
+        Self { n, reach: self.reach.max(reach), ..self }
     }
 
     /// A point of a triangle or quad.

@@ -4,6 +4,7 @@
 mod agreement;
 mod analytic;
 mod aov;
+mod copies;
 mod determinism;
 mod error;
 mod furnace;
