@@ -110,14 +110,18 @@ impl Scene {
     /// Finds of what a surface is made where a ray meets it, and how that lies on it.
     #[inline(never)]
     pub(super) fn dress(&self, point: SurfacePoint, met: &Met<'_>, ray: &Ray, hit: &Hit) -> Dress<'_> {
-        let tangents = met.tangents(&self.bvh.surface(hit, ray.time), &point);
+        let surface = self.bvh.surface(hit, ray.time);
+        let tangents = met.tangents(&surface, &point);
         let textures = met.textures(&point);
         let mut dice = Dice::new(ray, hit);
         let (mut ns, mut material) = (point.ns, self.material(met));
         loop {
             let turned = match material {
                 MaterialDesc::NormalMap(map) => map.normal(&textures).map(|n| along(ns, tangents).to_world(n)),
-                MaterialDesc::Bump(bump) => relief(bump, &textures, met, ns, tangents),
+                MaterialDesc::Bump(bump) => {
+                    let other = if textures.at.uv_1.is_some() { met.tangents_1(&surface) } else { tangents };
+                    relief(bump, &textures, met, ns, [tangents, other])
+                }
                 _ => None,
             };
             ns = turned.map_or(ns, |turned| bent(turned, point.n, ray.d));
@@ -142,17 +146,19 @@ fn bent(ns: Vec3, n: Vec3, d: Vec3) -> Vec3 {
     side * visible(side * ns, side * n, -d)
 }
 
-/// The normal of a relief.
-fn relief(bump: &Bump, textures: &TexturesAt<'_>, met: &Met<'_>, ns: Vec3, [u, v]: [Vec3; 2]) -> Option<Vec3> {
+/// The normal of a relief; `tangents` are those of both coordinates.
+fn relief(bump: &Bump, textures: &TexturesAt<'_>, met: &Met<'_>, ns: Vec3, tangents: [[Vec3; 2]; 2]) -> Option<Vec3> {
     /// Of the size of coordinates, and metres: so short that textures change evenly, so long that single precision tells.
     const STEP: f32 = 2e-4;
     let step = STEP * (1.0 + textures.at.p.abs().max_element());
     let frame = Frame::from_z(ns);
-    let area = u.cross(v).dot(ns);
     let moved = |axis: Vec3| {
         let by = step * frame.to_world(axis);
-        let uv = if area == 0.0 { Vec2::ZERO } else { Vec2::new(by.cross(v).dot(ns), u.cross(by).dot(ns)) / area };
-        textures.moved(by, met.way_on_shape(by), uv)
+        let coordinates = |[u, v]: [Vec3; 2]| {
+            let area = u.cross(v).dot(ns);
+            if area == 0.0 { Vec2::ZERO } else { Vec2::new(by.cross(v).dot(ns), u.cross(by).dot(ns)) / area }
+        };
+        textures.moved(by, met.way_on_shape(by), tangents.map(coordinates))
     };
     let n = bump.normal([textures, &moved(Vec3::X), &moved(Vec3::Y)], step)?;
     Some(frame.to_world(n))

@@ -104,8 +104,21 @@ impl<'s> Met<'s> {
                 self.object.vertices.as_ref().and_then(|v| v.tangents(self.primitive, edges)).unwrap_or(edges)
             }
         };
+        self.ways_in_world(on_shape)
+    }
+
+    /// The same with the second coordinates of a mesh.
+    pub(super) fn tangents_1(&self, surface: &Surface) -> [Vec3; 2] {
+        let Surface::Flat { edges, .. } = surface else { return [Vec3::ZERO; 2] };
+        let edges = edges.map(|edge| edge.as_vec3());
+        let on_shape = self.object.vertices.as_ref().and_then(|v| v.tangents_1(self.primitive, edges));
+        self.ways_in_world(on_shape.unwrap_or_default())
+    }
+
+    /// Ways on the shape, as it says itself, in the world.
+    fn ways_in_world(&self, on_shape: [Vec3; 2]) -> [Vec3; 2] {
         let Some(to_world) = self.to_world() else { return on_shape };
-        on_shape.map(|tangent| to_world.transform_vector3(tangent.as_dvec3()).as_vec3())
+        on_shape.map(|way| to_world.transform_vector3(way.as_dvec3()).as_vec3())
     }
 
     /// The number of the shape's material.
@@ -119,6 +132,7 @@ impl<'s> Met<'s> {
         let textures: &[TextureDesc] = &self.scene.textures;
         let at = TexturePoint {
             uv: self.uv(point),
+            uv_1: self.object.vertices.as_ref().and_then(|v| v.uv_1(self.primitive, self.uv)),
             p: point.p,
             p_object: self.place_on_shape(point.p) - self.object.origin,
             n: point.ns,

@@ -46,6 +46,9 @@ pub struct MeshDesc {
     /// Coordinates for textures at each vertex.
     #[serde(deserialize_with = "arrays")]
     pub uvs: Vec<[f32; 2]>,
+    /// Other such coordinates, for textures whose mapping has the space `uv-1`.
+    #[serde(deserialize_with = "arrays", skip_serializing_if = "Vec::is_empty")]
+    pub uvs_1: Vec<[f32; 2]>,
     /// A linear colour at each vertex, for the texture `vertex-color`.
     #[serde(deserialize_with = "arrays")]
     pub colors: Vec<[f32; 3]>,
@@ -78,6 +81,8 @@ pub struct MeshData {
     pub normals: Vec<[f32; 3]>,
     /// Coordinates for textures at each vertex, or none at all.
     pub uvs: Vec<[f32; 2]>,
+    /// Other such coordinates, or none at all.
+    pub uvs_1: Vec<[f32; 2]>,
     /// A linear colour at each vertex, or none at all.
     pub colors: Vec<[f32; 3]>,
 }
@@ -87,6 +92,7 @@ pub struct MeshData {
 pub(crate) struct VertexData {
     triangles: Arc<[[u32; 3]]>,
     uvs: Arc<[[f32; 2]]>,
+    uvs_1: Arc<[[f32; 2]]>,
     colors: Arc<[[f32; 3]]>,
 }
 
@@ -94,6 +100,11 @@ impl VertexData {
     /// The coordinates for textures at the point of a triangle where its second and third vertex have these weights.
     pub(crate) fn uv(&self, triangle: u32, weights: Vec2) -> Option<Vec2> {
         self.corners(&self.uvs, triangle).map(|corners| between(corners, weights).into())
+    }
+
+    /// The other ones, if there are any.
+    pub(crate) fn uv_1(&self, triangle: u32, weights: Vec2) -> Option<Vec2> {
+        self.corners(&self.uvs_1, triangle).map(|corners| between(corners, weights).into())
     }
 
     /// The colour there.
@@ -104,7 +115,16 @@ impl VertexData {
     /// How a point of a triangle with these first two edges moves with the coordinates; nothing is said where they are the same
     /// all over.
     pub(crate) fn tangents(&self, triangle: u32, edges: [Vec3; 2]) -> Option<[Vec3; 2]> {
-        let [a, b, c] = self.corners(&self.uvs, triangle)?.map(Vec2::from);
+        self.tangents_of(&self.uvs, triangle, edges)
+    }
+
+    /// The same of the other coordinates.
+    pub(crate) fn tangents_1(&self, triangle: u32, edges: [Vec3; 2]) -> Option<[Vec3; 2]> {
+        self.tangents_of(&self.uvs_1, triangle, edges)
+    }
+
+    fn tangents_of(&self, uvs: &[[f32; 2]], triangle: u32, edges: [Vec3; 2]) -> Option<[Vec3; 2]> {
+        let [a, b, c] = self.corners(uvs, triangle)?.map(Vec2::from);
         let [first, second] = [b - a, c - a];
         let area = first.perp_dot(second);
         if area == 0.0 {
@@ -133,20 +153,22 @@ struct Mesh<'a> {
     triangles: &'a [[u32; 3]],
     normals: &'a [[f32; 3]],
     uvs: &'a [[f32; 2]],
+    uvs_1: &'a [[f32; 2]],
     colors: &'a [[f32; 3]],
 }
 
 impl MeshDesc {
     fn mesh(&self) -> Mesh<'_> {
         match self.data.as_deref() {
-            Some(MeshData { vertices, triangles, normals, uvs, colors }) => {
-                Mesh { vertices, triangles, normals, uvs, colors }
+            Some(MeshData { vertices, triangles, normals, uvs, uvs_1, colors }) => {
+                Mesh { vertices, triangles, normals, uvs, uvs_1, colors }
             }
             None => Mesh {
                 vertices: &self.vertices,
                 triangles: &self.triangles,
                 normals: &self.normals,
                 uvs: &self.uvs,
+                uvs_1: &self.uvs_1,
                 colors: &self.colors,
             },
         }
@@ -213,17 +235,25 @@ impl<'a> Mesh<'a> {
             }
         });
         let count = self.vertices.len();
-        for (key, given) in [("normals", self.normals.len()), ("uvs", self.uvs.len()), ("colors", self.colors.len())] {
+        let lists = [
+            ("normals", self.normals.len()),
+            ("uvs", self.uvs.len()),
+            ("uvs_1", self.uvs_1.len()),
+            ("colors", self.colors.len()),
+        ];
+        for (key, given) in lists {
             if given != 0 && given != count {
                 let message = format!("there are {given} {key} for {count} vertices");
                 c.problem(key, message, Some("give one for each vertex, or none".to_owned()));
             }
         }
-        c.within("uvs", |c| {
-            for (i, uv) in self.uvs.iter().enumerate().filter(|(_, uv)| !is_finite(*uv)) {
-                c.problem(i, format!("coordinates {i} are {uv:?}"), Some("use finite numbers".to_owned()));
-            }
-        });
+        for (key, uvs) in [("uvs", self.uvs), ("uvs_1", self.uvs_1)] {
+            c.within(key, |c| {
+                for (i, uv) in uvs.iter().enumerate().filter(|(_, uv)| !is_finite(*uv)) {
+                    c.problem(i, format!("coordinates {i} are {uv:?}"), Some("use finite numbers".to_owned()));
+                }
+            });
+        }
         c.within("colors", |c| {
             let is_color = |v: &[f32]| is_finite(v) && v.iter().all(|&c| c >= 0.0);
             for (i, color) in self.colors.iter().enumerate().filter(|(_, color)| !is_color(*color)) {
@@ -254,6 +284,7 @@ impl ShapeDesc for MeshDesc {
             ("triangles", self.triangles.is_empty()),
             ("normals", self.normals.is_empty()),
             ("uvs", self.uvs.is_empty()),
+            ("uvs_1", self.uvs_1.is_empty()),
             ("colors", self.colors.is_empty()),
         ];
         let list = lists.iter().find(|(_, is_empty)| !is_empty).map(|(name, _)| name);
@@ -296,8 +327,9 @@ impl ShapeDesc for MeshDesc {
     }
 
     fn vertex_data(&self) -> Option<VertexData> {
-        let Mesh { triangles, uvs, colors, .. } = self.mesh();
-        let data = || VertexData { triangles: triangles.into(), uvs: uvs.into(), colors: colors.into() };
-        (!uvs.is_empty() || !colors.is_empty()).then(data)
+        let Mesh { triangles, uvs, uvs_1, colors, .. } = self.mesh();
+        let data =
+            || VertexData { triangles: triangles.into(), uvs: uvs.into(), uvs_1: uvs_1.into(), colors: colors.into() };
+        (!uvs.is_empty() || !uvs_1.is_empty() || !colors.is_empty()).then(data)
     }
 }

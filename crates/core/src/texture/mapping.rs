@@ -37,6 +37,9 @@ pub struct Mapping {
 pub enum Space {
     /// On the shape: each 0..1 over a quad, a sphere or as a mesh says; the third is 0.
     Uv,
+    /// The same by the second coordinates of a mesh, `uvs_1`; where there are none, by the first ones.
+    #[serde(rename = "uv-1")]
+    Uv1,
     /// In the world, metres.
     World,
     /// From the shape's own origin, metres: the centre of a sphere, the corner of a quad, where a mesh counts from.
@@ -69,6 +72,7 @@ impl Mapping {
     pub(super) fn origin(&self, at: &TexturePoint, default: Space) -> Vec3 {
         match self.space.unwrap_or(default) {
             Space::Uv => at.uv.extend(0.0),
+            Space::Uv1 => at.uv_1.unwrap_or(at.uv).extend(0.0),
             Space::World => at.p,
             Space::Object => at.p_object,
         }
@@ -109,6 +113,11 @@ mod tests {
         assert!((mapping.place(&at, Space::World) - Vec3::new(-1.0, 0.0, 4.0)).length() < 1e-5);
         let world = Mapping { space: Some(Space::World), ..Mapping::default() };
         assert_eq!(world.place(&at, Space::Uv), at.p);
+        let second = Mapping { space: Some(Space::Uv1), ..Mapping::default() };
+        assert_eq!(second.place(&at, Space::World), Vec3::X, "there are no other coordinates");
+        let both = TexturePoint { uv_1: Some(Vec2::new(0.5, 0.25)), ..at };
+        assert_eq!(second.place(&both, Space::World), Vec3::new(0.5, 0.25, 0.0));
+        assert_eq!(Mapping::default().place(&both, Space::Uv), Vec3::X);
         let object = Mapping { space: Some(Space::Object), ..Mapping::default() };
         assert_eq!(object.place(&at, Space::World), at.p_object);
     }

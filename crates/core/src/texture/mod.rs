@@ -92,6 +92,8 @@ pub enum TextureDesc {
 pub struct TexturePoint {
     /// Coordinates on the shape.
     pub uv: Vec2,
+    /// The second ones of a mesh that has them.
+    pub uv_1: Option<Vec2>,
     /// Place in the world, metres.
     pub p: Vec3,
     /// Place from the shape's own origin, metres; where the shape is without motion.
@@ -136,9 +138,9 @@ pub struct TexturesAt<'t> {
 
 impl TexturesAt<'_> {
     /// The same at a point that is a little off, by so many metres in the world and on the shape, and coordinates.
-    pub(crate) fn moved(&self, by: Vec3, by_object: Vec3, uv: Vec2) -> Self {
+    pub(crate) fn moved(&self, by: Vec3, by_object: Vec3, [uv, uv_1]: [Vec2; 2]) -> Self {
         let [p, p_object] = [self.at.p + by, self.at.p_object + by_object];
-        let at = TexturePoint { uv: self.at.uv + uv, p, p_object, ..self.at };
+        let at = TexturePoint { uv: self.at.uv + uv, uv_1: self.at.uv_1.map(|at| at + uv_1), p, p_object, ..self.at };
         Self { at, ..*self }
     }
 }

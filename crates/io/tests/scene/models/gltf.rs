@@ -7,7 +7,7 @@ use eyebeam_core::color::LUMENS_PER_WATT;
 use eyebeam_core::material::{MaterialDesc, Principled};
 use eyebeam_core::setup::Given;
 use eyebeam_core::shape::MeshData;
-use eyebeam_core::texture::{Color, TextureDesc};
+use eyebeam_core::texture::{Color, ImageTexture, Space, TextureDesc};
 use eyebeam_io::Error;
 use eyebeam_io::scene::{ReadOptions, SceneFile, read, read_with};
 use serde_json::{Value, json};
@@ -274,8 +274,6 @@ fn alpha_is_a_mask_and_unlit_a_lamp() {
 
 #[test]
 fn pictures_are_read_from_data_and_missing_ones_told_of() {
-    // One red pixel.
-    let png = "iVBORw0KGgoAAAANSUhEUgAAAAEAAAABCAIAAACQd1PeAAAADElEQVR4nGP4z8AAAAMBAQDJ/pLvAAAAAElFTkSuQmCC";
     let changes = |uri: String| {
         with(&[
             ("/images", json!([{ "uri": uri }])),
@@ -286,7 +284,7 @@ fn pictures_are_read_from_data_and_missing_ones_told_of() {
             ),
         ])
     };
-    let file = model(&changes(format!("data:image/png;base64,{png}")));
+    let file = model(&changes(PNG.to_owned()));
     assert_eq!(file.warnings, []);
     let p = principled(&file);
     let Color::Texture(name) = &p.base_color else { panic!("{:?}", p.base_color) };
@@ -297,6 +295,39 @@ fn pictures_are_read_from_data_and_missing_ones_told_of() {
     assert_eq!(principled(&file).base_color.rgb().unwrap().0, [1.0; 3]);
     let file = model(&changes("../../etc/passwd".to_owned()));
     assert!(file.warnings[0].message.contains("leads out of the folder of the model"), "{}", file.warnings[0]);
+}
+
+/// One red pixel.
+const PNG: &str = "data:image/png;base64,iVBORw0KGgoAAAANSUhEUgAAAAEAAAABCAIAAACQd1PeAAAADElEQVR4nGP4z8AAAAMBAQDJ/pLvAAAAAElFTkSuQmCC";
+
+/// The same, with the red picture as texture 0.
+fn with_picture(changes: &[(&str, Value)]) -> Value {
+    let picture = [("/images", json!([{ "uri": PNG }])), ("/textures", json!([{ "source": 0 }]))];
+    with(&[&picture, changes].concat())
+}
+
+fn picture<'f>(file: &'f SceneFile, name: &str) -> &'f ImageTexture {
+    match &file.desc.texture[name] {
+        TextureDesc::Image(image) => image,
+        other => panic!("{name}: {other:?}"),
+    }
+}
+
+#[test]
+fn a_texture_lies_by_the_second_coordinates() {
+    let painted = |set: u32| {
+        with_picture(&[
+            ("/meshes/0/primitives/0/attributes", json!({ "POSITION": 1, "TEXCOORD_0": 2, "TEXCOORD_1": 2 })),
+            ("/materials/0/pbrMetallicRoughness", json!({ "baseColorTexture": { "index": 0, "texCoord": set } })),
+        ])
+    };
+    let [first, second, third] = [0, 1, 2].map(|set| model(&painted(set)));
+    let spaces = [&first, &second, &third].map(|file| picture(file, "paint.base-color.picture").mapping.space);
+    assert_eq!(spaces, [None, Some(Space::Uv1), None]);
+    assert_eq!(mesh(&second).uvs_1, [[0.0, 0.0], [1.0, 0.0], [0.0, 1.0]]);
+    assert_eq!((&first.warnings, &second.warnings), (&vec![], &vec![]));
+    let message = "material `paint`: texture 0 lies as TEXCOORD_0 says, not as TEXCOORD_2 does";
+    assert_eq!(third.warnings[0].message, message);
 }
 
 #[test]

@@ -40,9 +40,12 @@ pub(super) fn read(
     let count = vertices.len();
     let optional = |name: &str| primitive.attributes.get(name).copied();
     let mut normals = optional("NORMAL").map(|i| buffers.floats::<3>(i, 0.0)).transpose()?.unwrap_or_default();
-    let uvs = optional("TEXCOORD_0").map(|i| buffers.floats::<2>(i, 0.0)).transpose()?.unwrap_or_default();
+    let uvs = |name: &str| optional(name).map(|i| buffers.floats::<2>(i, 0.0)).transpose();
+    let [uvs, uvs_1] = [uvs("TEXCOORD_0")?.unwrap_or_default(), uvs("TEXCOORD_1")?.unwrap_or_default()];
     let colors = optional("COLOR_0").map(|i| buffers.floats::<3>(i, 0.0)).transpose()?.unwrap_or_default();
-    for (name, length) in [("NORMAL", normals.len()), ("TEXCOORD_0", uvs.len()), ("COLOR_0", colors.len())] {
+    let lengths =
+        [("NORMAL", normals.len()), ("TEXCOORD_0", uvs.len()), ("TEXCOORD_1", uvs_1.len()), ("COLOR_0", colors.len())];
+    for (name, length) in lengths {
         if length != 0 && length != count {
             return Err(FileError::new(format!("there are {length} {name} for {count} vertices")));
         }
@@ -66,9 +69,9 @@ pub(super) fn read(
         triangles.iter_mut().for_each(|t| t.swap(1, 2));
     }
     // Pictures of glTF hang from v = 0 down.
-    let uvs = uvs.into_iter().map(|[u, v]| [finite(u), finite(1.0 - v)]).collect();
+    let [uvs, uvs_1] = [uvs, uvs_1].map(|uvs| uvs.into_iter().map(|[u, v]| [finite(u), finite(1.0 - v)]).collect());
     let colors = colors.into_iter().map(|c| c.map(|c| finite(c).max(0.0))).collect();
-    Ok(Some(MeshData { vertices, triangles, normals, uvs, colors }))
+    Ok(Some(MeshData { vertices, triangles, normals, uvs, uvs_1, colors }))
 }
 
 fn finite(number: f32) -> f32 {

@@ -8,7 +8,7 @@ use std::path::Path;
 use std::sync::Arc;
 
 use eyebeam_core::film::Wrap;
-use eyebeam_core::texture::{Encoding, Filter, ImageTexture, Mapping, Pixels};
+use eyebeam_core::texture::{Encoding, Filter, ImageTexture, Mapping, Pixels, Space};
 use rayon::prelude::*;
 
 use crate::error::FileError;
@@ -98,9 +98,14 @@ impl Pictures {
                 Mapping::default()
             });
         }
-        if info.extensions.transform.as_ref().and_then(|t| t.tex_coord).unwrap_or(info.tex_coord) != 0 {
-            warnings
-                .push(Warning::new(format!("texture {} lies as TEXCOORD_0 says, not as another set does", info.index)));
+        match info.extensions.transform.as_ref().and_then(|t| t.tex_coord).unwrap_or(info.tex_coord) {
+            0 => {}
+            1 => image.mapping.space = Some(Space::Uv1),
+            set => {
+                let message = format!("texture {} lies as TEXCOORD_0 says, not as TEXCOORD_{set} does", info.index);
+                let hint = Some("two sets of coordinates are read".to_owned());
+                warnings.push(Warning { hint, ..Warning::new(message) });
+            }
         }
         Some(image)
     }
