@@ -28,7 +28,7 @@ pub(super) enum Holes {
 pub(crate) struct Dress<'s> {
     /// Unit shading normal.
     pub(crate) ns: Vec3,
-    /// How the point moves with the first coordinate on the shape.
+    /// The direction in which the first coordinate on the shape grows, of any length.
     pub(crate) along_u: Vec3,
     /// The material that scatters.
     pub(crate) material: &'s MaterialDesc,
@@ -112,12 +112,13 @@ impl Scene {
     pub(super) fn dress(&self, point: SurfacePoint, met: &Met<'_>, ray: &Ray, hit: &Hit) -> Dress<'_> {
         let surface = self.bvh.surface(hit, ray.time);
         let tangents = met.tangents(&surface, &point);
+        let axes = met.axes(&surface, tangents);
         let textures = met.textures(&point);
         let mut dice = Dice::new(ray, hit);
         let (mut ns, mut material) = (point.ns, self.material(met));
         loop {
             let turned = match material {
-                MaterialDesc::NormalMap(map) => map.normal(&textures).map(|n| along(ns, tangents).to_world(n)),
+                MaterialDesc::NormalMap(map) => map.normal(&textures).map(|n| along(ns, axes).to_world(n)),
                 MaterialDesc::Bump(bump) => {
                     let other = if textures.at.uv_1.is_some() { met.tangents_1(&surface) } else { tangents };
                     relief(bump, &textures, met, ns, [tangents, other])
@@ -127,7 +128,7 @@ impl Scene {
             ns = turned.map_or(ns, |turned| bent(turned, point.n, ray.d));
             match self.inner(material, &textures, &mut dice) {
                 Some(inner) => material = inner,
-                None => return Dress { ns, along_u: tangents[0], material },
+                None => return Dress { ns, along_u: axes[0], material },
             }
         }
     }
@@ -140,7 +141,7 @@ fn along(ns: Vec3, [u, v]: [Vec3; 2]) -> Frame {
 }
 
 /// A shading normal that is on the side of the geometric one, and mirrors the view to above the surface.
-fn bent(ns: Vec3, n: Vec3, d: Vec3) -> Vec3 {
+pub(crate) fn bent(ns: Vec3, n: Vec3, d: Vec3) -> Vec3 {
     let ns = if ns.dot(n) < 0.0 { (ns - 2.0 * ns.dot(n) * n).normalize_or(n) } else { ns };
     let side = 1.0_f32.copysign(-d.dot(n));
     side * visible(side * ns, side * n, -d)

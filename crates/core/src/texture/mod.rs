@@ -104,6 +104,8 @@ pub struct TexturePoint {
     pub n_object: Vec3,
     /// What the vertices of a mesh say.
     pub vertex_color: Option<Rgb>,
+    /// The share that they say besides.
+    pub vertex_alpha: Option<f32>,
 }
 
 /// What materials ask for what they do not hold themselves: colours, and how coordinates lie on the shape.
@@ -114,6 +116,17 @@ pub trait Textures {
     /// The unit direction in the plane of the surface, in the material's frame, in which the first coordinate on the shape grows.
     fn u_axis(&self) -> Vec2 {
         Vec2::X
+    }
+
+    /// Whether the second coordinate grows to the right of that, seen from above, instead of to the left.
+    fn is_mirrored(&self) -> bool {
+        false
+    }
+
+    /// A unit direction of growing u, growing v and the shape's own normal, without what textures do to it, in the material's frame; a normal
+    /// that is bent until the view sees its mirror image.
+    fn above_smooth(&self, w: Vec3) -> Vec3 {
+        w
     }
 }
 

@@ -31,7 +31,7 @@ fn is_near(a: [f32; 3], b: [f32; 3]) -> bool {
 
 #[test]
 fn colours_of_vertices_are_interpolated() {
-    let texture = VertexColor { otherwise: Rgb([0.1, 0.2, 0.3]) };
+    let texture = VertexColor { otherwise: Rgb([0.1, 0.2, 0.3]), alpha: false };
     let scene = scene(TextureDesc::VertexColor(texture), |desc| {
         let vertices = [[0.0; 3], [1.0, 0.0, 0.0], [0.0, 0.0, 1.0], [5.0, 0.0, 0.0], [6.0, 0.0, 0.0], [5.0, 0.0, 1.0]];
         let colors = vec![[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]];
@@ -45,6 +45,22 @@ fn colours_of_vertices_are_interpolated() {
         assert!(is_near(found, [1.0 - x - z, x, z]), "{found:?}");
     }
     assert_eq!(albedo(&scene, 5.2, 0.2), [0.1, 0.2, 0.3]);
+}
+
+/// Shares of vertices are a grey of their own.
+#[test]
+fn alphas_of_vertices_are_interpolated() {
+    let texture = VertexColor { otherwise: Rgb([0.1, 0.2, 0.3]), alpha: true };
+    let scene = scene(TextureDesc::VertexColor(texture), |desc| {
+        let vertices = vec![[0.0; 3], [1.0, 0.0, 0.0], [0.0, 0.0, 1.0]];
+        let colors = vec![[1.0; 3]; 3];
+        let all = MeshDesc { vertices, colors, triangles: vec![[0, 1, 2]], ..MeshDesc::default() };
+        desc.shape.mesh.push(MeshDesc { alphas: vec![0.0, 0.5, 1.0], ..all.clone() });
+        let vertices = all.vertices.iter().map(|[x, y, z]| [x + 5.0, *y, *z]).collect();
+        desc.shape.mesh.push(MeshDesc { vertices, ..all });
+    });
+    assert!(is_near(albedo(&scene, 0.2, 0.3), [0.4; 3]));
+    assert_eq!(albedo(&scene, 5.2, 0.3), [0.1, 0.2, 0.3]);
 }
 
 /// A texture lies as the first or the second coordinates of a mesh say; as the first where there are no others.

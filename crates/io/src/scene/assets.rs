@@ -115,6 +115,8 @@ impl Asset for MeshData {
             + size_of_val(&*self.normals)
             + size_of_val(&*self.uvs)
             + size_of_val(&*self.uvs_1)
+            + size_of_val(&*self.tangents)
+            + size_of_val(&*self.alphas)
             + size_of_val(&*self.colors)
     }
 }

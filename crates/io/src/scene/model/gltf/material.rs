@@ -184,7 +184,7 @@ impl Maker<'_, '_> {
         let mut color = self.color(info, [r, g, b], Encoding::Auto, "base-color");
         if self.has_colors {
             let vertices =
-                self.texture("vertices", TextureDesc::VertexColor(VertexColor { otherwise: Rgb::grey(1.0) }));
+                self.texture("vertices", TextureDesc::VertexColor(VertexColor { otherwise: Rgb::grey(1.0), alpha: false }));
             color = self.product("base-color.painted", color, Color::Texture(vertices));
         }
         let uses_alpha = matches!(self.material.alpha_mode.as_deref(), Some("MASK" | "BLEND"));
