@@ -3,14 +3,14 @@
 use std::collections::BTreeMap;
 use std::sync::Arc;
 
-use eyebeam_core::shape::MeshDesc;
+use eyebeam_core::shape::{MeshData, MeshDesc};
 use glam::{DAffine3, DMat4};
 
 use crate::error::FileError;
 use crate::scene::model::Model;
 use crate::scene::model::gltf::accessor::{Buffers, missing};
-use crate::scene::model::gltf::document::{Document, Mesh, Primitive};
-use crate::scene::model::gltf::material::Materials;
+use crate::scene::model::gltf::document::{Material, Mesh};
+use crate::scene::model::gltf::material::{self, Materials};
 use crate::scene::model::gltf::{mesh, node};
 use crate::warning::Warning;
 
@@ -50,12 +50,17 @@ pub(super) fn read(
             continue;
         };
         let has_colors = !data.colors.is_empty();
-        let material = materials.name(primitive.material, has_colors, &mut model.desc, &mut model.warnings);
+        let mut material = materials.name(primitive.material, has_colors, &mut model.desc, &mut model.warnings);
+        let default = Material::default();
+        let said = primitive.material.and_then(|index| buffers.document.materials.get(index)).unwrap_or(&default);
+        if said.is_one_sided() && !is_closed(&data) {
+            material = material::front(&mut model.desc, &material);
+        }
         let file = format!("{}#node{}", materials.file, group.node);
         let places = if joints.is_some() { &[DAffine3::IDENTITY] } else { &group.places[..] };
         let all = places.len().saturating_mul(data.triangles.len());
         // Copies that shine would hardly be found.
-        let is_shared = places.len() > 1 && all > FEW && !shines(buffers.document, primitive);
+        let is_shared = places.len() > 1 && all > FEW && !shines(said);
         triangles += if is_shared { data.triangles.len() } else { all };
         if triangles > MOST_TRIANGLES {
             return Err(FileError::new(format!("the model has more than {MOST_TRIANGLES} triangles")));
@@ -113,10 +118,36 @@ fn rows(place: &DAffine3) -> [f32; 12] {
     std::array::from_fn(|i| columns[i % 4][i / 4] as f32)
 }
 
-/// Whether a primitive gives light.
-fn shines(document: &Document, primitive: &Primitive) -> bool {
-    let material = primitive.material.and_then(|index| document.materials.get(index));
-    material.is_some_and(|m| m.emissive_factor != [0.0; 3] || m.extensions.contains_key("KHR_materials_unlit"))
+/// Whether a material gives light.
+fn shines(material: &Material) -> bool {
+    material.emissive_factor != [0.0; 3] || material.extensions.contains_key("KHR_materials_unlit")
+}
+
+/// Whether each edge is there as often in one direction as in the other, so that nothing is seen from behind but from within: the sum over
+/// all edges of a number for each place where it begins and ends, which the other direction takes away.
+fn is_closed(mesh: &MeshData) -> bool {
+    let place = |index: u32| -> Option<u64> {
+        let vertex = mesh.vertices.get(index as usize)?;
+        // −0 is 0.
+        Some(vertex.iter().fold(0, |hash, &c| scramble(hash ^ u64::from((c + 0.0).to_bits()))))
+    };
+    let edge = |a: u64, b: u64| {
+        if a < b { scramble(a ^ b.rotate_left(1)) } else { scramble(b ^ a.rotate_left(1)).wrapping_neg() }
+    };
+    let around = |&[a, b, c]: &[u32; 3]| -> Option<u64> {
+        let [a, b, c] = [place(a)?, place(b)?, place(c)?];
+        let edges = [(a, b), (b, c), (c, a)].into_iter().filter(|(a, b)| a != b);
+        Some(edges.fold(0, |sum: u64, (a, b)| sum.wrapping_add(edge(a, b))))
+    };
+    mesh.triangles.iter().filter_map(around).fold(0, u64::wrapping_add) == 0
+}
+
+/// Other bits for each number: the finaliser of SplitMix64 (Steele, Lea & Flood 2014, doi:10.1145/2660193.2660195).
+fn scramble(number: u64) -> u64 {
+    let z = number.wrapping_add(0x9e37_79b9_7f4a_7c15);
+    let z = (z ^ (z >> 30)).wrapping_mul(0xbf58_476d_1ce4_e5b9);
+    let z = (z ^ (z >> 27)).wrapping_mul(0x94d0_49bb_1331_11eb);
+    z ^ (z >> 31)
 }
 
 /// From where the joints of a skin were when it was bound to where they are in the world.
@@ -136,4 +167,23 @@ fn joints(
         Ok(to_world * DAffine3::from_mat4(DMat4::from_cols_array(&bound)))
     };
     skin.joints.iter().enumerate().map(joint).collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_tetrahedron_is_closed_and_without_a_side_it_is_not() {
+        let corners = [[0.0, 0.0, 0.0], [1.0, 0.0, -0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]];
+        // The last vertex is the first one again, as where textures have a seam.
+        let vertices = [&corners[..], &[[-0.0, 0.0, 0.0]]].concat();
+        let triangles = vec![[0, 2, 1], [0, 1, 3], [4, 3, 2], [1, 2, 3]];
+        let mut mesh = MeshData { vertices, triangles, ..MeshData::default() };
+        assert!(is_closed(&mesh));
+        mesh.triangles[1] = [0, 3, 1];
+        assert!(!is_closed(&mesh), "one is the wrong way round");
+        mesh.triangles.pop();
+        assert!(!is_closed(&mesh));
+    }
 }
