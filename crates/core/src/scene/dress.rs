@@ -74,12 +74,14 @@ impl Scene {
         if !met.object.has_holes {
             return true;
         }
-        let textures = met.textures(&met.point::<false>(ray, hit));
+        let point = met.point::<false>(ray, hit);
+        let (textures, is_behind) = (met.textures(&point), ray.d.dot(point.n) > 0.0);
         let mut dice = Dice::new(ray, hit);
         let mut opacity = 1.0;
         let mut material = self.material(&met);
         loop {
             match material {
+                MaterialDesc::Mask(mask) if mask.one_sided && is_behind => return false,
                 MaterialDesc::Mask(mask) => opacity *= mask.opacity.at(&textures, 0.0, 1.0),
                 MaterialDesc::Null(_) => return false,
                 _ => {}

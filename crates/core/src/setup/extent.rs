@@ -1,8 +1,11 @@
 //! Where most of a scene is.
 
+use std::array;
+
 use glam::Vec3;
 
 use crate::desc::SceneDesc;
+use crate::shape::MeshDesc;
 
 /// A box around what there is.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -47,6 +50,11 @@ impl Extent {
         (self.max - self.min).length()
     }
 
+    fn corners(&self) -> [Vec3; 8] {
+        let side = |i: usize, axis: usize| if i >> axis & 1 == 0 { self.min[axis] } else { self.max[axis] };
+        array::from_fn(|i| Vec3::new(side(i, 0), side(i, 1), side(i, 2)))
+    }
+
     /// Whether a point is inside, or on it.
     pub(super) fn holds(&self, p: Vec3) -> bool {
         p.cmpge(self.min).all() && p.cmple(self.max).all()
@@ -57,32 +65,56 @@ impl Extent {
 pub(super) fn points(desc: &SceneDesc) -> Vec<Vec3> {
     let mut points = Vec::new();
     for mesh in &desc.shape.mesh {
-        let vertices = mesh.data.as_ref().map_or(&mesh.vertices, |data| &data.vertices);
-        points.extend(vertices.iter().map(|&v| Vec3::from(v)));
+        push_mesh(&mut points, mesh);
     }
     for quad in &desc.shape.quad {
         let [corner, u, v] = [quad.corner, quad.u, quad.v].map(Vec3::from);
         points.extend([corner, corner + u, corner + v, corner + u + v]);
     }
     for sphere in &desc.shape.sphere {
-        let (center, r) = (Vec3::from(sphere.center), sphere.radius);
-        let corner =
-            |i: u32| center + r * Vec3::from([0, 1, 2].map(|axis| if i >> axis & 1 == 0 { -1.0 } else { 1.0 }));
-        points.extend((0..8).map(corner));
+        let (center, r) = (Vec3::from(sphere.center), Vec3::splat(sphere.radius));
+        points.extend(Extent { min: center - r, max: center + r }.corners());
     }
     points.retain(|p| p.is_finite());
     points
 }
 
+/// Those of a mesh, or of its copies; if these have many, of the boxes around them.
+fn push_mesh(points: &mut Vec<Vec3>, mesh: &MeshDesc) {
+    const MANY: usize = 1 << 24;
+    let mut vertices: Vec<_> = mesh.vertices().iter().map(|&v| Vec3::from(v)).collect();
+    if mesh.instances.is_empty() {
+        points.append(&mut vertices);
+        return;
+    }
+    if vertices.len().saturating_mul(mesh.instances.len()) > MANY
+        && let Some(whole) = Extent::around(vertices.iter().copied())
+    {
+        vertices = whole.corners().into();
+    }
+    points.extend(mesh.copies().flat_map(|copy| vertices.iter().map(move |&v| copy.transform_point3(v))));
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::shape::MeshDesc;
 
     fn of(vertices: Vec<[f32; 3]>) -> Option<Extent> {
         let mut desc = SceneDesc::default();
         desc.shape.mesh.push(MeshDesc { vertices, ..MeshDesc::default() });
         Extent::of(&points(&desc))
+    }
+
+    #[test]
+    fn copies_count_where_they_are() {
+        let mut desc = SceneDesc::default();
+        let place = |x: f32| [2.0, 0.0, 0.0, x, 0.0, 1.0, 0.0, 0.0, 0.0, 0.0, 1.0, 0.0];
+        let vertices = vec![[0.0; 3], [1.0, 0.0, 0.0], [0.0, 3.0, 4.0]];
+        desc.shape.mesh.push(MeshDesc { vertices, instances: vec![place(-1.0), place(5.0)], ..MeshDesc::default() });
+        let expected = Extent { min: Vec3::new(-1.0, 0.0, 0.0), max: Vec3::new(7.0, 3.0, 4.0) };
+        assert_eq!(Extent::of(&points(&desc)), Some(expected));
+        desc.shape.mesh[0].instances.resize(1 << 23, place(5.0));
+        assert_eq!(Extent::of(&points(&desc)), Some(expected));
     }
 
     #[test]

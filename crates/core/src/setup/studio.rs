@@ -136,7 +136,7 @@ pub(super) fn add_ground(desc: &mut SceneDesc, extent: &Extent) {
         ..Principled::default()
     };
     desc.material.insert(surface.clone(), MaterialDesc::Principled(Box::new(matte)));
-    let mask = Mask { of: Name::new(&surface), opacity: Scalar::Texture(Name::new(&name)) };
+    let mask = Mask::new(Name::new(&surface), Scalar::Texture(Name::new(&name)));
     desc.material.insert(name.clone(), MaterialDesc::Mask(mask));
     desc.shape.quad.push(QuadDesc {
         corner: [center.x - half, y, center.z + half],

@@ -121,10 +121,10 @@ fn worn() -> SceneDesc {
     let panes = Emissive { radiance: Color::Texture(named("panes")), two_sided: true, ..Emissive::default() };
     for (name, material) in [
         ("panes", MaterialDesc::Emissive(panes)),
-        ("window", MaterialDesc::Mask(Mask { of: named("panes"), opacity: texture("squares") })),
+        ("window", MaterialDesc::Mask(Mask::new(named("panes"), texture("squares")))),
         ("rough", metal(0.4)),
         ("floor", MaterialDesc::Mix(Mix { a: named("rough"), b: named("default"), share: texture("squares") })),
-        ("net", MaterialDesc::Mask(Mask { of: named("floor"), opacity: texture("squares") })),
+        ("net", MaterialDesc::Mask(Mask::new(named("floor"), texture("squares")))),
         ("dented", MaterialDesc::Bump(Bump { of: named("rough"), height: texture("dents"), scale: 0.3 })),
         (
             "tiled",

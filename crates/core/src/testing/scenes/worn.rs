@@ -10,7 +10,7 @@ use crate::material::{Dielectric, Mask, MaterialDesc, Mix, Null, Principled};
 use crate::names::Name;
 
 pub(super) fn scenes() -> Vec<KnownScene> {
-    let holes = [hole(), hollow(), shadow(), nothing(), half_and_half()];
+    let holes = [hole(), hollow(), shadow(), nothing(), half_and_half(), one_sided([3.0, 0.0]), one_sided([0.5, 1.0])];
     let filled = [0.0, 45.0, 75.0].map(plate).into_iter().chain([overlap(), wet_glass(), principled()]);
     holes.into_iter().chain(filled).collect()
 }
@@ -18,7 +18,7 @@ pub(super) fn scenes() -> Vec<KnownScene> {
 /// A black thing of which a share is there.
 fn veil(desc: &mut SceneDesc, opacity: f32) -> MaterialDesc {
     desc.material.insert("black".to_owned(), matte(0.0));
-    MaterialDesc::Mask(Mask { of: Name::new("black"), opacity: opacity.into() })
+    MaterialDesc::Mask(Mask::new(Name::new("black"), opacity.into()))
 }
 
 /// A sheet with holes in front of a white sky.
@@ -45,6 +45,14 @@ fn shadow() -> KnownScene {
     let material = veil(&mut desc, 0.25);
     add_quad(&mut desc, floor(2.0), "veil", material);
     KnownScene::new("floor below a sheet with holes", desc, 2, floor_at(3.0 * 0.75)).hidden()
+}
+
+/// A black ball that has an outside only, seen from there and from within.
+fn one_sided([z, expected]: [f32; 2]) -> KnownScene {
+    let mut desc = empty(WHITE, stare([0.0, 0.0, z], [0.1, 0.2, 0.0]));
+    desc.material.insert("black".to_owned(), matte(0.0));
+    add_sphere(&mut desc, [0.0; 3], 1.0, "front", MaterialDesc::Mask(Mask::one_sided(Name::new("black"))));
+    KnownScene::new("white furnace, ball without an inside", desc, 2, expected.into())
 }
 
 /// What is not there is not seen, and casts no shadow.

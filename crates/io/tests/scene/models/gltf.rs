@@ -205,6 +205,21 @@ fn instances_are_copies() {
     assert_eq!(file.desc.shape.mesh[2].data.as_ref().unwrap().vertices[0], [0.0, 2.0, 0.0]);
 }
 
+/// A hundred thousand in one place: accessors without bytes are 0.
+#[test]
+fn many_instances_share_a_mesh() {
+    let extension = json!({ "EXT_mesh_gpu_instancing": { "attributes": { "TRANSLATION": 5 } } });
+    let file = model(&with(&[
+        ("/nodes/0/extensions", extension),
+        ("/nodes/0/translation", json!([1, 2, 3])),
+        ("/accessors/5", json!({ "componentType": 5126, "count": 100_000, "type": "VEC3" })),
+    ]));
+    let [mesh] = &file.desc.shape.mesh[..] else { panic!("one mesh") };
+    assert_eq!((mesh.instances.len(), mesh.triangle_count()), (100_000, 1));
+    assert_eq!(mesh.instances[7], [1.0, 0.0, 0.0, 1.0, 0.0, 1.0, 0.0, 2.0, 0.0, 0.0, 1.0, 3.0]);
+    assert!(file.desc.check().is_empty());
+}
+
 #[test]
 fn cameras_and_lights_are_given() {
     let lights = json!({ "KHR_lights_punctual": { "lights": [{ "type": "point", "intensity": LUMENS_PER_WATT, "color": [1, 0.5, 0] }] } });

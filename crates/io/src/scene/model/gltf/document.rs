@@ -141,6 +141,7 @@ pub(super) struct Material {
     pub(super) emissive_factor: [f32; 3],
     pub(super) alpha_mode: Option<String>,
     pub(super) alpha_cutoff: Option<f32>,
+    pub(super) double_sided: bool,
     pub(super) extensions: Extensions,
 }
 

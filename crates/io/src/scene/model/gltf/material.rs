@@ -14,9 +14,10 @@
 //! | diffuse transmission | mixed with `diffuse-transmission`, which has no gloss |
 //! | normal texture | `normal-map` |
 //! | alphaMode MASK, BLEND | `mask` |
+//! | doubleSided | a `mask` that is one-sided, if it is absent and the mesh is open: else nobody sees its back |
 //! | unlit | a lamp of this radiance |
 //!
-//! Occlusion is computed by light and not read. Both sides of a surface are seen, whatever `doubleSided` says.
+//! Occlusion is computed by light and not read.
 
 use std::collections::BTreeMap;
 
@@ -79,6 +80,21 @@ impl<'a> Materials<'a> {
     }
 }
 
+impl Material {
+    /// Whether it hides what is behind it from its front only. What light goes through has two sides.
+    pub(super) fn is_one_sided(&self) -> bool {
+        let through = ["KHR_materials_transmission", "KHR_materials_diffuse_transmission"];
+        !self.double_sided && !through.iter().any(|name| self.extensions.contains_key(*name))
+    }
+}
+
+/// The name of the front of a material, that is in the scene now.
+pub(super) fn front(desc: &mut SceneDesc, of: &str) -> String {
+    let name = format!("{of}.front");
+    desc.material.entry(name.clone()).or_insert_with(|| MaterialDesc::Mask(Mask::one_sided(Name::new(of))));
+    name
+}
+
 /// One material in the making.
 struct Maker<'m, 'a> {
     all: &'m Materials<'a>,
@@ -120,7 +136,7 @@ impl Maker<'_, '_> {
         }
         if let Some(opacity) = self.opacity(alpha_mode.as_deref(), alpha) {
             let of = self.part("opaque", surface);
-            surface = MaterialDesc::Mask(Mask { of, opacity });
+            surface = MaterialDesc::Mask(Mask::new(of, opacity));
         }
         self.desc.material.insert(self.name.to_owned(), surface);
     }

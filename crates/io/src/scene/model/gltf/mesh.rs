@@ -1,6 +1,6 @@
-//! Triangles of a primitive, in the world: posed by morph targets and joints, moved by its node.
+//! Triangles of a primitive: posed by morph targets and joints, moved by its node.
 //!
-//! Khronos, glTF 2.0 Specification, 2021, §3.7. A transform that mirrors turns triangles round, so that their outsides stay outside.
+//! Khronos, glTF 2.0 Specification, 2021, §3.7.
 
 use std::collections::BTreeMap;
 
@@ -11,20 +11,13 @@ use crate::error::FileError;
 use crate::scene::model::gltf::accessor::Buffers;
 use crate::scene::model::gltf::document::Primitive;
 
-/// How a mesh stands.
-pub(super) struct Pose<'a> {
-    pub(super) to_world: DAffine3,
-    /// How much there is of each morph target.
-    pub(super) weights: &'a [f32],
-    /// To the world from where each joint was when the skin was bound; these take the place of `to_world`.
-    pub(super) joints: Option<&'a [DAffine3]>,
-}
-
-/// None for points and lines.
+/// A mesh with so much of each morph target, posed by its joints if there are any: where each has moved since the skin was bound. None for
+/// points and lines.
 pub(super) fn read(
     buffers: &Buffers<'_>,
     primitive: &Primitive,
-    pose: &Pose<'_>,
+    weights: &[f32],
+    joints: Option<&[DAffine3]>,
 ) -> Result<Option<MeshData>, FileError> {
     const DRACO: &str = "KHR_draco_mesh_compression";
     let Some(&position) = primitive.attributes.get("POSITION") else { return Ok(None) };
@@ -53,25 +46,23 @@ pub(super) fn read(
     if normals.iter().flatten().any(|c| !c.is_finite()) {
         normals.clear();
     }
-    morph(buffers, &primitive.targets, pose.weights, &mut vertices, &mut normals)?;
-    let mirrored = match pose.joints {
-        Some(joints) => {
-            skin(buffers, &primitive.attributes, joints, &mut vertices, &mut normals)?;
-            false
-        }
-        None => {
-            place(&pose.to_world, &mut vertices, &mut normals);
-            pose.to_world.matrix3.determinant() < 0.0
-        }
-    };
-    let mut triangles = triangles(buffers, primitive.indices, mode, count)?;
-    if mirrored {
-        triangles.iter_mut().for_each(|t| t.swap(1, 2));
+    morph(buffers, &primitive.targets, weights, &mut vertices, &mut normals)?;
+    if let Some(joints) = joints {
+        skin(buffers, &primitive.attributes, joints, &mut vertices, &mut normals)?;
     }
+    let triangles = triangles(buffers, primitive.indices, mode, count)?;
     // Pictures of glTF hang from v = 0 down.
     let [uvs, uvs_1] = [uvs, uvs_1].map(|uvs| uvs.into_iter().map(|[u, v]| [finite(u), finite(1.0 - v)]).collect());
     let colors = colors.into_iter().map(|c| c.map(|c| finite(c).max(0.0))).collect();
     Ok(Some(MeshData { vertices, triangles, normals, uvs, uvs_1, colors }))
+}
+
+/// Moves a mesh to where it stands. A transform that mirrors turns triangles round, so that their outsides stay outside.
+pub(super) fn place(mesh: &mut MeshData, to_world: &DAffine3) {
+    transform(to_world, &mut mesh.vertices, &mut mesh.normals);
+    if to_world.matrix3.determinant() < 0.0 {
+        mesh.triangles.iter_mut().for_each(|t| t.swap(1, 2));
+    }
 }
 
 fn finite(number: f32) -> f32 {
@@ -131,7 +122,7 @@ fn morph(
     Ok(())
 }
 
-fn place(to_world: &DAffine3, vertices: &mut [[f32; 3]], normals: &mut [[f32; 3]]) {
+fn transform(to_world: &DAffine3, vertices: &mut [[f32; 3]], normals: &mut [[f32; 3]]) {
     let of_normals = normal_matrix(to_world);
     for v in vertices {
         *v = to_world.transform_point3(double(*v)).as_vec3().into();
@@ -178,7 +169,7 @@ fn skin(
     for (i, (mut sum, total)) in sums.into_iter().enumerate().filter(|(_, (_, total))| *total > 0.0) {
         sum.matrix3 *= 1.0 / total;
         sum.translation /= total;
-        place(&sum, vertices.get_mut(i..=i).unwrap_or_default(), normals.get_mut(i..=i).unwrap_or_default());
+        transform(&sum, vertices.get_mut(i..=i).unwrap_or_default(), normals.get_mut(i..=i).unwrap_or_default());
     }
     Ok(())
 }

@@ -13,20 +13,15 @@ mod material;
 mod mesh;
 mod meshopt;
 mod node;
+mod shapes;
 mod texture;
 
-use std::collections::BTreeMap;
 use std::path::Path;
-use std::sync::Arc;
 
-use eyebeam_core::shape::MeshDesc;
-use glam::{DAffine3, DMat4};
-
-use self::accessor::{Buffers, Bytes, missing};
+use self::accessor::{Buffers, Bytes};
 use self::container::Container;
 use self::document::Document;
 use self::material::Materials;
-use self::mesh::Pose;
 use self::texture::Pictures;
 use crate::error::{At, Error, FileError};
 use crate::file;
@@ -34,9 +29,6 @@ use crate::scene::ReadOptions;
 use crate::scene::model::Model;
 use crate::scene::model::folder;
 use crate::warning::Warning;
-
-/// Triangles of all meshes where they stand.
-const MOST_TRIANGLES: usize = 100_000_000;
 
 pub(super) fn read(path: &Path, options: &ReadOptions<'_>) -> Result<Model, Error> {
     let bytes = file::read(path)?;
@@ -60,41 +52,12 @@ fn read_bytes(name: &str, bytes: &[u8], folder: &Path, options: &ReadOptions<'_>
     let pictures = Pictures::read(&buffers, folder, &mut model.warnings);
     let mut materials = Materials::new(&document, &pictures, name);
     let placed = node::in_world(&document, document.scene.unwrap_or(0))?;
-    let in_world: BTreeMap<usize, DAffine3> = placed.iter().copied().collect();
-    let (mut triangles, mut skipped) = (0, 0);
     for &(index, to_world) in &placed {
         let Some(node) = document.nodes.get(index) else { continue };
         camera::read(&document, node, &to_world, &mut model)?;
         light::read(&document, node, &to_world, &mut model)?;
-        let Some(mesh) = node.mesh else { continue };
-        let mesh = document.meshes.get(mesh).ok_or_else(|| missing("mesh", mesh))?;
-        let joints = node.skin.map(|skin| joints(&buffers, skin, &in_world)).transpose()?;
-        let weights = if node.weights.is_empty() { &mesh.weights } else { &node.weights };
-        let copies = node::copies(&buffers, node)?;
-        for (primitive, copy) in mesh.primitives.iter().flat_map(|p| copies.iter().map(move |copy| (p, copy))) {
-            let skinned = joints.as_deref().filter(|_| primitive.attributes.contains_key("JOINTS_0"));
-            let pose = Pose { to_world: to_world * *copy, weights, joints: skinned };
-            let Some(data) = mesh::read(&buffers, primitive, &pose)? else {
-                skipped += 1;
-                continue;
-            };
-            triangles += data.triangles.len();
-            if triangles > MOST_TRIANGLES {
-                return Err(FileError::new(format!("the model has more than {MOST_TRIANGLES} triangles")));
-            }
-            let has_colors = !data.colors.is_empty();
-            let material = materials.name(primitive.material, has_colors, &mut model.desc, &mut model.warnings);
-            model.desc.shape.mesh.push(MeshDesc {
-                file: Some(format!("{name}#node{index}")),
-                material: Some(material),
-                data: Some(Arc::new(data)),
-                ..MeshDesc::default()
-            });
-        }
     }
-    if skipped > 0 {
-        model.warnings.push(Warning::new(format!("{skipped} sets of points or lines are left out")));
-    }
+    shapes::read(&buffers, &placed, &mut materials, &mut model)?;
     model.warnings.dedup();
     Ok(model)
 }
@@ -138,23 +101,4 @@ fn load(document: &Document, mut behind: Option<&[u8]>, folder: &Path) -> Result
         buffers.push(bytes);
     }
     Ok(buffers)
-}
-
-/// From where the joints of a skin were when it was bound to where they are in the world.
-fn joints(
-    buffers: &Buffers<'_>,
-    index: usize,
-    in_world: &BTreeMap<usize, DAffine3>,
-) -> Result<Vec<DAffine3>, FileError> {
-    let skin = buffers.document.skins.get(index).ok_or_else(|| missing("skin", index))?;
-    let bound = skin.inverse_bind_matrices.map(|i| buffers.floats::<16>(i, 0.0)).transpose()?;
-    let joint = |(i, joint): (usize, &usize)| {
-        let to_world = *in_world.get(joint).ok_or_else(|| missing("joint", *joint))?;
-        let bound = match &bound {
-            Some(matrices) => matrices.get(i).ok_or_else(|| missing("inverse bind matrix", i))?.map(f64::from),
-            None => return Ok(to_world),
-        };
-        Ok(to_world * DAffine3::from_mat4(DMat4::from_cols_array(&bound)))
-    };
-    skin.joints.iter().enumerate().map(joint).collect()
 }

@@ -54,7 +54,7 @@ pub(super) fn add(name: &str, mtl: &Mtl, pictures: &mut Pictures, model: &mut Mo
         layers.push(MaterialDesc::Bump(Bump { of: of(), height: Scalar::Texture(Name::new(&height)), scale }));
     }
     if opacity.number() != Some(1.0) {
-        layers.push(MaterialDesc::Mask(Mask { of: of(), opacity }));
+        layers.push(MaterialDesc::Mask(Mask::new(of(), opacity)));
     }
     if shines {
         model.given.light = true;
