@@ -1,6 +1,7 @@
 //! Models: what other programs write.
 
 mod gltf;
+mod gltf_materials;
 mod obj;
 mod stl;
 
