@@ -41,7 +41,6 @@ fn painted(extension: &str, value: Value) -> (&'static str, Value) {
     ("/materials/0", json!({ "name": "paint", "extensions": { extension: value } }))
 }
 
-/// A picture that is green at the left and blue at the right, with the red one as texture 1.
 fn texture(file: &SceneFile, name: &str) -> TextureDesc {
     file.desc.texture[name].clone()
 }
@@ -217,6 +216,49 @@ fn specular_and_glossiness() {
     assert_eq!((base_color.rgb().unwrap().0, base_metalness.number()), ([0.5, 0.25, 1.0], Some(0.0)));
     assert!((specular_ior - 1.5).abs() < 1e-5 && specular_roughness.number() == Some(0.25));
     assert_eq!(specular_color.rgb().unwrap().0, [1.0, 0.5, 0.25]);
+}
+
+/// More than a quarter straight on is partly metal: 0.04 times 13 is 0.52.
+#[test]
+fn bright_reflections_are_partly_metal() {
+    let bright = |factor: f32, more: Value| {
+        let mut extensions = json!({ "KHR_materials_specular": { "specularColorFactor": [factor, 0.5 * factor, 0] } });
+        extensions.as_object_mut().unwrap().extend(more.as_object().unwrap().clone());
+        let pbr = json!({ "metallicFactor": 0 });
+        let paint = json!({ "name": "paint", "pbrMetallicRoughness": pbr, "extensions": extensions });
+        model(&with(&[("/materials/0", paint)]))
+    };
+    let file = bright(4.0, json!({}));
+    let p = principled(&file);
+    assert!((p.specular_ior - 1.4 / 0.6).abs() < 1e-5, "0.16 straight on: {}", p.specular_ior);
+    assert_eq!(p.specular_color.rgb().unwrap().0, [1.0, 0.5, 0.0]);
+    let file = bright(13.0, json!({}));
+    let MaterialDesc::Mix(mix) = &file.desc.material["paint"] else { panic!() };
+    assert!((mix.share.number().unwrap() - 0.27 / 0.75).abs() < 1e-5);
+    let part = |name: &str| match &file.desc.material[name] {
+        MaterialDesc::Principled(p) => {
+            (p.specular_ior, p.base_metalness.number().unwrap(), p.base_color.rgb().unwrap().0)
+        }
+        other => panic!("{other:?}"),
+    };
+    assert_eq!(part(mix.a.name()), (3.0, 0.0, [1.0; 3]));
+    assert_eq!(part(mix.b.name()), (3.0, 1.0, [1.0, 0.5, 0.0]));
+    assert_eq!(file.warnings, []);
+    let glass = bright(4.0, json!({ "KHR_materials_transmission": { "transmissionFactor": 1 } }));
+    assert!(glass.warnings[0].message.contains("what is clear reflects no more"), "{:?}", glass.warnings);
+    // Of metal it says nothing.
+    let metal = json!({ "name": "paint", "extensions": { "KHR_materials_specular": { "specularFactor": 0 } } });
+    assert_eq!(principled(&model(&with(&[("/materials/0", metal)]))).specular_weight.number(), Some(1.0));
+    // A picture of reflectances is metal where it is bright.
+    let old = json!({ "specularGlossinessTexture": { "index": 0 } });
+    let file = model(&with_picture(&[painted("KHR_materials_pbrSpecularGlossiness", old)]));
+    let MaterialDesc::Mix(mix) = &file.desc.material["paint"] else { panic!() };
+    let Scalar::Texture(name) = &mix.share else { panic!() };
+    let TextureDesc::Ramp(ramp) = texture(&file, name.name()) else { panic!() };
+    assert_eq!(
+        (ramp.stops[1].at, ramp.stops[1].color.0, ramp.interpolation),
+        (0.25, [1.0; 3], Interpolation::Constant)
+    );
 }
 
 #[test]

@@ -7,7 +7,7 @@
 //! | sheen | fuzz, of the weight of its brightest channel |
 //! | transmission | transmission; a sheet (thin-walled) unless there is a volume |
 //! | volume | transmission_color at transmission_depth; the base colour tints only sheets |
-//! | specular, ior | specular_weight, specular_color up to 1, specular_ior |
+//! | specular, ior | specular_weight, specular_color, specular_ior; partly metal where it reflects more than a quarter |
 //! | iridescence | thin_film |
 //! | anisotropy | specular_roughness_anisotropy, specular_rotation, geometry_tangent |
 //! | emissive, emissive_strength | emission |
@@ -26,13 +26,14 @@ use eyebeam_core::desc::SceneDesc;
 use eyebeam_core::material::{DiffuseTransmission, Emissive, Mask, MaterialDesc, Mix, NormalMap, Principled};
 use eyebeam_core::names::Name;
 use eyebeam_core::texture::{
-    Channel, ChannelOf, Color, Encoding, Interpolation, Invert, Multiply, Ramp, Scalar, Stop, TextureDesc, VertexColor,
+    Channel, ChannelOf, Color, Encoding, Interpolation, Multiply, Ramp, Scalar, Stop, TextureDesc, VertexColor,
 };
 
 use crate::scene::model::gltf::document::{Document, Material, TextureInfo};
 use crate::scene::model::gltf::extensions::{
-    Clearcoat, EmissiveStrength, Ior, Iridescence, Leaf, Sheen, Specular, SpecularGlossiness, Transmission, Volume, get,
+    Clearcoat, EmissiveStrength, Iridescence, Leaf, Sheen, SpecularGlossiness, Transmission, Volume, get,
 };
+use crate::scene::model::gltf::reflectance::Mirror;
 use crate::scene::model::gltf::texture::Pictures;
 use crate::warning::Warning;
 
@@ -81,7 +82,7 @@ impl<'a> Materials<'a> {
             name = (2..).map(|n| format!("{name}-{n}")).find(|name| !desc.material.contains_key(name)).unwrap_or(name);
         }
         let count = warnings.len();
-        Maker { all: self, material, name: &name, painted, desc, warnings }.make();
+        Maker { all: self, material, name: &name, painted, mirror: None, desc, warnings }.make();
         for warning in warnings.iter_mut().skip(count) {
             warning.message = format!("material `{name}`: {}", warning.message);
         }
@@ -119,6 +120,8 @@ pub(super) struct Maker<'m, 'a> {
     pub(super) material: &'m Material,
     name: &'m str,
     painted: Painted,
+    /// A part of it that is metal, whatever its metalness.
+    pub(super) mirror: Option<Mirror>,
     desc: &'m mut SceneDesc,
     warnings: &'m mut Vec<Warning>,
 }
@@ -132,7 +135,7 @@ impl Maker<'_, '_> {
             (alpha, MaterialDesc::Emissive(lamp))
         } else {
             let (alpha, principled) = self.principled();
-            (alpha, MaterialDesc::Principled(Box::new(principled)))
+            (alpha, self.partly_metal(principled))
         };
         if let Some(leaf) = self.extension::<Leaf>("KHR_materials_diffuse_transmission") {
             let (texture, factor) = (leaf.diffuse_transmission_texture.as_ref(), leaf.diffuse_transmission_factor);
@@ -160,7 +163,7 @@ impl Maker<'_, '_> {
     }
 
     /// A material that others are made of.
-    fn part(&mut self, part: &str, material: MaterialDesc) -> Name {
+    pub(super) fn part(&mut self, part: &str, material: MaterialDesc) -> Name {
         let name = format!("{}.{part}", self.name);
         self.desc.material.insert(name.clone(), material);
         Name::new(&name)
@@ -198,8 +201,9 @@ impl Maker<'_, '_> {
             specular_roughness: self.channel(packed, Channel::Green, pbr.roughness_factor.unwrap_or(1.0), "roughness"),
             ..Principled::default()
         };
+        self.specular(&mut p);
         self.gloss(&mut p);
-        self.reflection(&mut p);
+        self.anisotropy(&mut p);
         self.layers(&mut p);
         self.transmission(&mut p);
         self.emission(&mut p);
@@ -233,44 +237,6 @@ impl Maker<'_, '_> {
             alpha = self.product("alpha.painted", alpha, Color::Texture(vertices));
         }
         [color, alpha]
-    }
-
-    /// `KHR_materials_pbrSpecularGlossiness`, the way of saying it before metals.
-    fn gloss(&mut self, p: &mut Principled) {
-        let Some(old): Option<SpecularGlossiness> = self.extension("KHR_materials_pbrSpecularGlossiness") else {
-            return;
-        };
-        let specular = old.specular_factor.unwrap_or([1.0; 3]).map(|c| bounded(c, 0.0, 1.0));
-        let brightest = specular.into_iter().fold(0.0, f32::max);
-        // The index whose reflectance straight on that is: F = ((n − 1) / (n + 1))².
-        let root = brightest.sqrt().min(0.5);
-        p.base_metalness = 0.0.into();
-        p.specular_ior = (1.0 + root) / (1.0 - root);
-        p.specular_color = Rgb(specular.map(|c| if brightest > 0.0 { c / brightest } else { 0.0 })).into();
-        let (texture, factor) = (old.specular_glossiness_texture.as_ref(), old.glossiness_factor.unwrap_or(1.0));
-        p.specular_roughness = match self.alpha_times(texture, factor, "gloss") {
-            Scalar::Number(gloss) => (1.0 - gloss).into(),
-            Scalar::Texture(gloss) => {
-                let input = Color::Texture(gloss);
-                Scalar::Texture(self.texture("roughness", TextureDesc::Invert(Invert { input })))
-            }
-        };
-        self.warn("specular and glossiness become a glossy matte surface, without the texture of the specular colour");
-    }
-
-    fn reflection(&mut self, p: &mut Principled) {
-        if let Some(Ior { ior }) = self.extension("KHR_materials_ior") {
-            let ior = ior.unwrap_or(1.5);
-            p.specular_ior = if ior == 0.0 { 3.0 } else { bounded(ior, 1.0, 3.0) };
-        }
-        if let Some(specular) = self.extension::<Specular>("KHR_materials_specular") {
-            let factor = specular.specular_factor.unwrap_or(1.0);
-            p.specular_weight = self.alpha_times(specular.specular_texture.as_ref(), factor, "specular");
-            let color = specular.specular_color_factor.unwrap_or([1.0; 3]);
-            p.specular_color =
-                self.color(specular.specular_color_texture.as_ref(), color, Encoding::Auto, "specular-color");
-        }
-        self.anisotropy(p);
     }
 
     fn layers(&mut self, p: &mut Principled) {
@@ -344,7 +310,7 @@ impl Maker<'_, '_> {
         }
     }
 
-    fn extension<T: serde::de::DeserializeOwned>(&self, name: &str) -> Option<T> {
+    pub(super) fn extension<T: serde::de::DeserializeOwned>(&self, name: &str) -> Option<T> {
         get(&self.material.extensions, name)
     }
 
@@ -367,7 +333,7 @@ impl Maker<'_, '_> {
     }
 
     /// The alpha of a picture times a factor, in 0..1; the factor if there is no picture.
-    fn alpha_times(&mut self, info: Option<&TextureInfo>, factor: f32, part: &str) -> Scalar {
+    pub(super) fn alpha_times(&mut self, info: Option<&TextureInfo>, factor: f32, part: &str) -> Scalar {
         let factor = bounded(factor, 0.0, 1.0);
         match info.and_then(|info| self.image(info, Encoding::Auto, true, part)) {
             Some(alpha) => scalar(self.product(part, Color::Texture(alpha), Rgb::grey(factor).into())),
@@ -375,7 +341,7 @@ impl Maker<'_, '_> {
         }
     }
 
-    fn product(&mut self, part: &str, a: Color, b: Color) -> Color {
+    pub(super) fn product(&mut self, part: &str, a: Color, b: Color) -> Color {
         let is_one = |c: &Color| c.rgb() == Some(Rgb::grey(1.0));
         if is_one(&b) {
             return a;
@@ -387,7 +353,13 @@ impl Maker<'_, '_> {
     }
 
     /// A picture times a factor, in 0..1; the factor if there is no picture.
-    fn color(&mut self, info: Option<&TextureInfo>, factor: [f32; 3], encoding: Encoding, part: &str) -> Color {
+    pub(super) fn color(
+        &mut self,
+        info: Option<&TextureInfo>,
+        factor: [f32; 3],
+        encoding: Encoding,
+        part: &str,
+    ) -> Color {
         let factor = Color::from(Rgb(factor.map(|c| bounded(c, 0.0, 1.0))));
         match info.and_then(|info| self.image(info, encoding, false, part)) {
             Some(image) => self.product(part, Color::Texture(image), factor),

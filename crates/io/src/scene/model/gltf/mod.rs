@@ -14,6 +14,7 @@ mod material;
 mod mesh;
 mod meshopt;
 mod node;
+mod reflectance;
 mod shapes;
 mod surroundings;
 mod tangents;
