@@ -57,7 +57,6 @@ pub(super) fn add(name: &str, mtl: &Mtl, pictures: &mut Pictures, model: &mut Mo
         layers.push(MaterialDesc::Mask(Mask::new(of(), opacity)));
     }
     if shines {
-        model.given.light = true;
         if layers.len() > 1 {
             layers.truncate(1);
             model
