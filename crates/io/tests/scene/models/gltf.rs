@@ -298,6 +298,40 @@ fn pictures_are_read_from_data_and_missing_ones_told_of() {
     assert!(file.warnings[0].message.contains("leads out of the folder of the model"), "{}", file.warnings[0]);
 }
 
+/// A picture of an extension comes before the one for those who do not know it.
+#[test]
+fn pictures_of_extensions_are_read() {
+    let mut webp = Vec::new();
+    image::codecs::webp::WebPEncoder::new_lossless(&mut webp)
+        .encode(&[200, 100, 50, 255, 9, 8, 7, 6], 2, 1, image::ExtendedColorType::Rgba8)
+        .unwrap();
+    let webp = base64::Engine::encode(&base64::engine::general_purpose::STANDARD, webp);
+    let changes = |texture: Value| {
+        with(&[
+            ("/extensionsUsed", json!(["EXT_texture_webp", "KHR_texture_basisu"])),
+            ("/extensionsRequired", json!(["EXT_texture_webp"])),
+            (
+                "/images",
+                json!([{ "uri": "nowhere.png" }, { "uri": format!("data:image/webp;base64,{webp}") }, { "uri": "data:;base64,q0tUWCAyMLsNChoK" }]),
+            ),
+            ("/textures", json!([texture])),
+            ("/materials/0/pbrMetallicRoughness", json!({ "baseColorTexture": { "index": 0 } })),
+        ])
+    };
+    let file = model(&changes(json!({ "source": 0, "extensions": { "EXT_texture_webp": { "source": 1 } } })));
+    assert_eq!(file.warnings, []);
+    let Color::Texture(name) = &principled(&file).base_color else { panic!() };
+    let TextureDesc::Image(image) = &file.desc.texture[name.name()] else { panic!() };
+    let pixels = image.pixels.as_ref().unwrap();
+    assert_eq!((pixels.width(), pixels.height(), pixels.channels()), (2, 1, 4));
+    let file = model(&changes(json!({ "source": 1, "extensions": { "KHR_texture_basisu": { "source": 2 } } })));
+    assert!(
+        file.warnings[0].message.contains("picture 2 is left out: the KTX2 ends too early"),
+        "{}",
+        file.warnings[0]
+    );
+}
+
 #[test]
 fn what_is_wrong_is_said() {
     let cases: &[(&str, Value, &str)] = &[
