@@ -164,7 +164,7 @@ mod tests {
     #[test]
     fn levels_are_inflated() {
         let plain = uastc(COLORS, 0);
-        let frame = [&[0x28, 0xb5, 0x2f, 0xfd, 0x20, 32, 1 | 0 << 3, 1, 0][..], &plain[148..]].concat();
+        let frame = [&[0x28, 0xb5, 0x2f, 0xfd, 0x20, 32, 1, 1, 0][..], &plain[148..]].concat();
         let whole = [&set(&set(&plain, 44, 2), 88, frame.len() as u32)[..148], &frame].concat();
         assert!(decode(&whole, 0).unwrap() == decode(&plain, 0).unwrap());
         assert!(decode(&set(&whole, 96, 1 << 30), 0).unwrap_err().message.contains("another size than it says"));
