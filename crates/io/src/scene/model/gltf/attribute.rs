@@ -21,7 +21,7 @@ pub(super) struct Indices {
 impl<'a> Attributes<'a> {
     pub(super) fn new(buffers: &'a Buffers<'a>, primitive: &'a Primitive) -> Result<Self, FileError> {
         let stream = |compressed: Compressed| buffers.stream(compressed.buffer_view).map(|stream| (stream, compressed));
-        let compressed = Compressed::of(primitive).map(stream).transpose()?;
+        let compressed = Compressed::of(primitive)?.map(stream).transpose()?;
         Ok(Self { buffers, primitive, compressed })
     }
 

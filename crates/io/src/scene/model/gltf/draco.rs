@@ -13,7 +13,6 @@ use serde::Deserialize;
 use crate::error::FileError;
 use crate::scene::model::gltf::accessor::{Buffers, Component, element};
 use crate::scene::model::gltf::document::Primitive;
-use crate::scene::model::gltf::extensions::get;
 
 /// Triangles of all compressed meshes of a file. To decode one takes some 70 bytes besides its vertices.
 const MOST_TRIANGLES: usize = 1 << 25;
@@ -32,8 +31,12 @@ pub(super) struct Compressed {
 }
 
 impl Compressed {
-    pub(super) fn of(primitive: &Primitive) -> Option<Self> {
-        get(&primitive.extensions, "KHR_draco_mesh_compression")
+    /// None if the primitive is not compressed.
+    pub(super) fn of(primitive: &Primitive) -> Result<Option<Self>, FileError> {
+        const NAME: &str = "KHR_draco_mesh_compression";
+        let Some(value) = primitive.extensions.get(NAME) else { return Ok(None) };
+        let compressed = Self::deserialize(value);
+        compressed.map(Some).map_err(|e| FileError::new(format!("the extension {NAME} of a mesh makes no sense: {e}")))
     }
 }
 
@@ -81,7 +84,7 @@ pub(super) fn decode(buffers: &Buffers<'_>) -> Result<BTreeMap<usize, Stream>, F
     // Points and lines are left out.
     let primitives = buffers.document.meshes.iter().flat_map(|mesh| &mesh.primitives);
     for primitive in primitives.filter(|primitive| primitive.mode.unwrap_or(4) >= 4) {
-        let Some(compressed) = Compressed::of(primitive) else { continue };
+        let Some(compressed) = Compressed::of(primitive)? else { continue };
         let size = sizes.entry(compressed.buffer_view).or_default();
         *size = size.max(Size::of(buffers, primitive, &compressed)?);
     }
