@@ -8,7 +8,7 @@ use crate::light::{LightSample, Target};
 use crate::material::{Bsdf, BsdfSample, MaterialDesc};
 use crate::math::{Frame, renormalize};
 use crate::sampler::Sampler;
-use crate::scene::Met;
+use crate::scene::{Met, bent};
 use crate::shape::SurfacePoint;
 use crate::texture::Textures;
 
@@ -24,7 +24,7 @@ pub struct SurfaceInteraction<'s> {
     wo_world: Vec3,
     /// The same; local.
     wo: Vec3,
-    /// How the point moves with the first coordinate on the shape, if anything asks for that.
+    /// The direction in which the first coordinate on the shape grows, if anything asks for that.
     along_u: Vec3,
     material: &'s MaterialDesc,
     light: Option<u32>,
@@ -163,6 +163,16 @@ impl<'s> SurfaceInteraction<'s> {
 }
 
 impl Textures for SurfaceInteraction<'_> {
+    fn is_mirrored(&self) -> bool {
+        self.met.is_mirrored()
+    }
+
+    fn above_smooth(&self, w: Vec3) -> Vec3 {
+        let along = Frame::from_zx(self.met.smooth_normal(&self.point), self.along_u);
+        let along = if self.met.is_mirrored() { along.mirrored() } else { along };
+        self.frame.to_local(bent(along.to_world(w), self.point.n, -self.wo_world))
+    }
+
     fn u_axis(&self) -> Vec2 {
         self.frame.to_local(self.along_u).truncate().try_normalize().unwrap_or(Vec2::X)
     }

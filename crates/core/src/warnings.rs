@@ -28,14 +28,21 @@ impl SceneDesc {
     /// Pictures of normals that are taken for colours.
     fn warn_of_normal_maps(&self, c: &mut Checker) {
         for (name, material) in &self.material {
-            let MaterialDesc::NormalMap(NormalMap { map: Color::Texture(map), .. }) = material else { continue };
-            if let Some(TextureDesc::Image(image)) = self.texture.get(map.name())
-                && image.is_srgb()
-            {
+            let (kind, maps) = match material {
+                MaterialDesc::NormalMap(NormalMap { map, .. }) => ("normal-map", [("map", Some(map)), ("", None)]),
+                MaterialDesc::Principled(m) => ("principled", m.directions()),
+                _ => continue,
+            };
+            for (key, map) in maps {
+                let Some(Color::Texture(map)) = map else { continue };
+                let Some(TextureDesc::Image(image)) = self.texture.get(map.name()) else { continue };
+                if !image.is_srgb() {
+                    continue;
+                }
                 let message =
                     format!("the normals in `{}` are read as sRGB colours, and point in wrong directions", image.file);
                 let hint = format!("say encoding = \"linear\" in [texture.{}.image]", map.name());
-                c.within(name, |c| c.within("normal-map", |c| c.problem("map", message, Some(hint))));
+                c.within(name, |c| c.within(kind, |c| c.problem(key, message, Some(hint))));
             }
         }
     }

@@ -19,11 +19,20 @@ pub(crate) struct ModelArgs {
     /// When in the animation, seconds
     #[arg(long, value_name = "SECONDS", default_value_t = 0.0, allow_negative_numbers = true, requires = "animation")]
     pub(crate) at: f32,
+    /// Variant of the model's materials, by its name or number [default: the materials of the file]
+    #[arg(long, value_name = "NAME")]
+    pub(crate) variant: Option<String>,
 }
 
 impl ModelArgs {
     pub(crate) fn options<'a>(&'a self, overrides: &'a [Override]) -> ReadOptions<'a> {
-        ReadOptions { overrides, up: self.up, animation: self.animation.as_deref(), at: self.at }
+        ReadOptions {
+            overrides,
+            up: self.up,
+            animation: self.animation.as_deref(),
+            at: self.at,
+            variant: self.variant.as_deref(),
+        }
     }
 }
 

@@ -225,11 +225,11 @@ impl MaterialDesc {
         }
     }
 
-    /// Whether highlights have a direction, so that it matters how coordinates lie on the shape.
-    pub(crate) fn is_anisotropic(&self) -> bool {
+    /// Whether highlights or coats have a direction, so that it matters how coordinates lie on the shape.
+    pub(crate) fn has_directions(&self) -> bool {
         match self {
             Self::Conductor(m) => m.anisotropy > 0.0,
-            Self::Principled(m) => m.is_anisotropic(),
+            Self::Principled(m) => m.has_directions(),
             _ => false,
         }
     }

@@ -28,7 +28,7 @@ pub(super) enum Holes {
 pub(crate) struct Dress<'s> {
     /// Unit shading normal.
     pub(crate) ns: Vec3,
-    /// How the point moves with the first coordinate on the shape.
+    /// The direction in which the first coordinate on the shape grows, of any length.
     pub(crate) along_u: Vec3,
     /// The material that scatters.
     pub(crate) material: &'s MaterialDesc,
@@ -112,20 +112,25 @@ impl Scene {
     /// Finds of what a surface is made where a ray meets it, and how that lies on it.
     #[inline(never)]
     pub(super) fn dress(&self, point: SurfacePoint, met: &Met<'_>, ray: &Ray, hit: &Hit) -> Dress<'_> {
-        let tangents = met.tangents(&self.bvh.surface(hit, ray.time), &point);
+        let surface = self.bvh.surface(hit, ray.time);
+        let tangents = met.tangents(&surface, &point);
+        let axes = met.axes(&surface, tangents);
         let textures = met.textures(&point);
         let mut dice = Dice::new(ray, hit);
         let (mut ns, mut material) = (point.ns, self.material(met));
         loop {
             let turned = match material {
-                MaterialDesc::NormalMap(map) => map.normal(&textures).map(|n| along(ns, tangents).to_world(n)),
-                MaterialDesc::Bump(bump) => relief(bump, &textures, met, ns, tangents),
+                MaterialDesc::NormalMap(map) => map.normal(&textures).map(|n| along(ns, axes).to_world(n)),
+                MaterialDesc::Bump(bump) => {
+                    let other = if textures.at.uv_1.is_some() { met.tangents_1(&surface) } else { tangents };
+                    relief(bump, &textures, met, ns, [tangents, other])
+                }
                 _ => None,
             };
             ns = turned.map_or(ns, |turned| bent(turned, point.n, ray.d));
             match self.inner(material, &textures, &mut dice) {
                 Some(inner) => material = inner,
-                None => return Dress { ns, along_u: tangents[0], material },
+                None => return Dress { ns, along_u: axes[0], material },
             }
         }
     }
@@ -138,23 +143,25 @@ fn along(ns: Vec3, [u, v]: [Vec3; 2]) -> Frame {
 }
 
 /// A shading normal that is on the side of the geometric one, and mirrors the view to above the surface.
-fn bent(ns: Vec3, n: Vec3, d: Vec3) -> Vec3 {
+pub(crate) fn bent(ns: Vec3, n: Vec3, d: Vec3) -> Vec3 {
     let ns = if ns.dot(n) < 0.0 { (ns - 2.0 * ns.dot(n) * n).normalize_or(n) } else { ns };
     let side = 1.0_f32.copysign(-d.dot(n));
     side * visible(side * ns, side * n, -d)
 }
 
-/// The normal of a relief.
-fn relief(bump: &Bump, textures: &TexturesAt<'_>, met: &Met<'_>, ns: Vec3, [u, v]: [Vec3; 2]) -> Option<Vec3> {
+/// The normal of a relief; `tangents` are those of both coordinates.
+fn relief(bump: &Bump, textures: &TexturesAt<'_>, met: &Met<'_>, ns: Vec3, tangents: [[Vec3; 2]; 2]) -> Option<Vec3> {
     /// Of the size of coordinates, and metres: so short that textures change evenly, so long that single precision tells.
     const STEP: f32 = 2e-4;
     let step = STEP * (1.0 + textures.at.p.abs().max_element());
     let frame = Frame::from_z(ns);
-    let area = u.cross(v).dot(ns);
     let moved = |axis: Vec3| {
         let by = step * frame.to_world(axis);
-        let uv = if area == 0.0 { Vec2::ZERO } else { Vec2::new(by.cross(v).dot(ns), u.cross(by).dot(ns)) / area };
-        textures.moved(by, met.way_on_shape(by), uv)
+        let coordinates = |[u, v]: [Vec3; 2]| {
+            let area = u.cross(v).dot(ns);
+            if area == 0.0 { Vec2::ZERO } else { Vec2::new(by.cross(v).dot(ns), u.cross(by).dot(ns)) / area }
+        };
+        textures.moved(by, met.way_on_shape(by), tangents.map(coordinates))
     };
     let n = bump.normal([textures, &moved(Vec3::X), &moved(Vec3::Y)], step)?;
     Some(frame.to_world(n))

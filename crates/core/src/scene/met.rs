@@ -104,8 +104,46 @@ impl<'s> Met<'s> {
                 self.object.vertices.as_ref().and_then(|v| v.tangents(self.primitive, edges)).unwrap_or(edges)
             }
         };
+        self.ways_in_world(on_shape)
+    }
+
+    /// The same with the second coordinates of a mesh.
+    pub(super) fn tangents_1(&self, surface: &Surface) -> [Vec3; 2] {
+        let Surface::Flat { edges, .. } = surface else { return [Vec3::ZERO; 2] };
+        let edges = edges.map(|edge| edge.as_vec3());
+        let on_shape = self.object.vertices.as_ref().and_then(|v| v.tangents_1(self.primitive, edges));
+        self.ways_in_world(on_shape.unwrap_or_default())
+    }
+
+    /// The directions in which coordinates grow, as normal maps and highlights take them, where the point moves with the coordinates by
+    /// `tangents`.
+    pub(super) fn axes(&self, surface: &Surface, tangents: [Vec3; 2]) -> [Vec3; 2] {
+        let (Surface::Flat { edges, .. }, Some(vertices)) = (surface, &self.object.vertices) else { return tangents };
+        let axes = vertices.axes(self.primitive, self.uv, edges.map(|edge| edge.as_vec3()));
+        axes.map_or(tangents, |axes| self.ways_in_world(axes))
+    }
+
+    /// Whether the second of these is to the right of the first, seen from above.
+    pub(crate) fn is_mirrored(&self) -> bool {
+        let on_shape = self.object.vertices.as_ref().is_some_and(|v| v.is_mirrored(self.primitive));
+        on_shape != self.to_world().is_some_and(|to_world| to_world.matrix3.determinant() < 0.0)
+    }
+
+    /// The unit normal that the shape itself says at a point of it, on the side of the geometric one.
+    pub(crate) fn smooth_normal(&self, point: &SurfacePoint) -> Vec3 {
+        let normal = self.object.smooth.as_ref().and_then(|smooth| smooth.normal(self.primitive, self.uv));
+        let in_world = |n: Vec3| match self.to_world() {
+            Some(to_world) => (to_world.matrix3.inverse().transpose() * n.as_dvec3()).as_vec3(),
+            None => n,
+        };
+        let Some(n) = normal.and_then(|n| in_world(n).try_normalize()) else { return point.n };
+        if n.dot(point.n) < 0.0 { -n } else { n }
+    }
+
+    /// Ways on the shape, as it says itself, in the world.
+    fn ways_in_world(&self, on_shape: [Vec3; 2]) -> [Vec3; 2] {
         let Some(to_world) = self.to_world() else { return on_shape };
-        on_shape.map(|tangent| to_world.transform_vector3(tangent.as_dvec3()).as_vec3())
+        on_shape.map(|way| to_world.transform_vector3(way.as_dvec3()).as_vec3())
     }
 
     /// The number of the shape's material.
@@ -119,11 +157,13 @@ impl<'s> Met<'s> {
         let textures: &[TextureDesc] = &self.scene.textures;
         let at = TexturePoint {
             uv: self.uv(point),
+            uv_1: self.object.vertices.as_ref().and_then(|v| v.uv_1(self.primitive, self.uv)),
             p: point.p,
             p_object: self.place_on_shape(point.p) - self.object.origin,
             n: point.ns,
             n_object: self.normal_on_shape(point.ns),
             vertex_color: self.object.vertices.as_ref().and_then(|v| v.color(self.primitive, self.uv)),
+            vertex_alpha: self.object.vertices.as_ref().and_then(|v| v.alpha(self.primitive, self.uv)),
         };
         TexturesAt { textures, at }
     }

@@ -13,8 +13,8 @@ use glam::{Vec2, Vec3};
 
 pub(crate) use self::met::Met;
 
-pub(crate) use self::dress::Dress;
 use self::dress::Holes;
+pub(crate) use self::dress::{Dress, bent};
 use self::geometry::Geometry;
 use self::placement::Placement;
 use crate::camera::{Camera, CameraDesc};
@@ -127,7 +127,7 @@ impl Wear {
             material.clone().parts().into_iter().filter_map(|(_, name)| name.map(|name| name.index())).collect();
         let parts: Vec<_> = parts;
         let here = Self {
-            is_dressed: !parts.is_empty() || material.is_anisotropic(),
+            is_dressed: !parts.is_empty() || material.has_directions(),
             has_holes: matches!(material, MaterialDesc::Mask(_) | MaterialDesc::Null(_)),
         };
         parts

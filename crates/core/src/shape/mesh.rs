@@ -46,9 +46,19 @@ pub struct MeshDesc {
     /// Coordinates for textures at each vertex.
     #[serde(deserialize_with = "arrays")]
     pub uvs: Vec<[f32; 2]>,
+    /// Other such coordinates, for textures whose mapping has the space `uv-1`.
+    #[serde(deserialize_with = "arrays", skip_serializing_if = "Vec::is_empty")]
+    pub uvs_1: Vec<[f32; 2]>,
+    /// At each vertex the direction of growing u for normal maps and long highlights, of any length, and 1 where v grows to the left of it, seen
+    /// from above, or -1 where it grows to the right. As `uvs` grow if absent.
+    #[serde(deserialize_with = "arrays", skip_serializing_if = "Vec::is_empty")]
+    pub tangents: Vec<[f32; 4]>,
     /// A linear colour at each vertex, for the texture `vertex-color`.
     #[serde(deserialize_with = "arrays")]
     pub colors: Vec<[f32; 3]>,
+    /// A share at each vertex, 0..1, for the texture `vertex-color` with `alpha`.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    pub alphas: Vec<f32>,
     /// Name of a material; grey matte if absent.
     pub material: Option<String>,
     /// Where it is at some times; it rests if absent.
@@ -78,8 +88,14 @@ pub struct MeshData {
     pub normals: Vec<[f32; 3]>,
     /// Coordinates for textures at each vertex, or none at all.
     pub uvs: Vec<[f32; 2]>,
+    /// Other such coordinates, or none at all.
+    pub uvs_1: Vec<[f32; 2]>,
+    /// At each vertex the direction of growing u, and the side on which v grows, or none at all.
+    pub tangents: Vec<[f32; 4]>,
     /// A linear colour at each vertex, or none at all.
     pub colors: Vec<[f32; 3]>,
+    /// A share at each vertex, 0..1, or none at all.
+    pub alphas: Vec<f32>,
 }
 
 /// What textures ask of the vertices of a mesh.
@@ -87,7 +103,10 @@ pub struct MeshData {
 pub(crate) struct VertexData {
     triangles: Arc<[[u32; 3]]>,
     uvs: Arc<[[f32; 2]]>,
+    uvs_1: Arc<[[f32; 2]]>,
+    tangents: Arc<[[f32; 4]]>,
     colors: Arc<[[f32; 3]]>,
+    alphas: Arc<[f32]>,
 }
 
 impl VertexData {
@@ -96,15 +115,36 @@ impl VertexData {
         self.corners(&self.uvs, triangle).map(|corners| between(corners, weights).into())
     }
 
+    /// The other ones, if there are any.
+    pub(crate) fn uv_1(&self, triangle: u32, weights: Vec2) -> Option<Vec2> {
+        self.corners(&self.uvs_1, triangle).map(|corners| between(corners, weights).into())
+    }
+
     /// The colour there.
     pub(crate) fn color(&self, triangle: u32, weights: Vec2) -> Option<Rgb> {
         self.corners(&self.colors, triangle).map(|corners| Rgb(between(corners, weights)))
     }
 
+    /// The share there.
+    pub(crate) fn alpha(&self, triangle: u32, weights: Vec2) -> Option<f32> {
+        let corners = self.corners(&self.alphas, triangle)?;
+        let [alpha] = between(corners.map(|alpha| [alpha]), weights);
+        Some(alpha)
+    }
+
     /// How a point of a triangle with these first two edges moves with the coordinates; nothing is said where they are the same
     /// all over.
     pub(crate) fn tangents(&self, triangle: u32, edges: [Vec3; 2]) -> Option<[Vec3; 2]> {
-        let [a, b, c] = self.corners(&self.uvs, triangle)?.map(Vec2::from);
+        self.tangents_of(&self.uvs, triangle, edges)
+    }
+
+    /// The same of the other coordinates.
+    pub(crate) fn tangents_1(&self, triangle: u32, edges: [Vec3; 2]) -> Option<[Vec3; 2]> {
+        self.tangents_of(&self.uvs_1, triangle, edges)
+    }
+
+    fn tangents_of(&self, uvs: &[[f32; 2]], triangle: u32, edges: [Vec3; 2]) -> Option<[Vec3; 2]> {
+        let [a, b, c] = self.corners(uvs, triangle)?.map(Vec2::from);
         let [first, second] = [b - a, c - a];
         let area = first.perp_dot(second);
         if area == 0.0 {
@@ -112,6 +152,23 @@ impl VertexData {
         }
         let [e1, e2] = edges;
         Some([(e1 * second.y - e2 * first.y) / area, (e2 * first.x - e1 * second.x) / area])
+    }
+
+    /// The directions of growing u and v for normal maps, as vertices say them; of v only the side counts. None if they do not.
+    pub(crate) fn axes(&self, triangle: u32, weights: Vec2, [e1, e2]: [Vec3; 2]) -> Option<[Vec3; 2]> {
+        let [x, y, z, side] = between(self.corners(&self.tangents, triangle)?, weights);
+        let u = Vec3::new(x, y, z).try_normalize()?;
+        Some([u, e1.cross(e2).cross(u) * 1.0_f32.copysign(side)])
+    }
+
+    /// Whether v grows to the right of growing u for normal maps, seen from where the triangle is counter-clockwise.
+    pub(crate) fn is_mirrored(&self, triangle: u32) -> bool {
+        if let Some(corners) = self.corners(&self.tangents, triangle) {
+            return corners.map(|[.., side]| side).iter().sum::<f32>() < 0.0;
+        }
+        let Some([a, b, c]) = self.corners(&self.uvs, triangle) else { return false };
+        let [a, b, c] = [a, b, c].map(Vec2::from);
+        (b - a).perp_dot(c - a) < 0.0
     }
 
     /// At the corners of a triangle; none if vertices have no such numbers.
@@ -133,21 +190,27 @@ struct Mesh<'a> {
     triangles: &'a [[u32; 3]],
     normals: &'a [[f32; 3]],
     uvs: &'a [[f32; 2]],
+    uvs_1: &'a [[f32; 2]],
+    tangents: &'a [[f32; 4]],
     colors: &'a [[f32; 3]],
+    alphas: &'a [f32],
 }
 
 impl MeshDesc {
     fn mesh(&self) -> Mesh<'_> {
         match self.data.as_deref() {
-            Some(MeshData { vertices, triangles, normals, uvs, colors }) => {
-                Mesh { vertices, triangles, normals, uvs, colors }
+            Some(MeshData { vertices, triangles, normals, uvs, uvs_1, tangents, colors, alphas }) => {
+                Mesh { vertices, triangles, normals, uvs, uvs_1, tangents, colors, alphas }
             }
             None => Mesh {
                 vertices: &self.vertices,
                 triangles: &self.triangles,
                 normals: &self.normals,
                 uvs: &self.uvs,
+                uvs_1: &self.uvs_1,
+                tangents: &self.tangents,
                 colors: &self.colors,
+                alphas: &self.alphas,
             },
         }
     }
@@ -218,15 +281,30 @@ impl<'a> Mesh<'a> {
             }
         });
         let count = self.vertices.len();
-        for (key, given) in [("normals", self.normals.len()), ("uvs", self.uvs.len()), ("colors", self.colors.len())] {
+        let lists = [
+            ("normals", self.normals.len()),
+            ("uvs", self.uvs.len()),
+            ("uvs_1", self.uvs_1.len()),
+            ("tangents", self.tangents.len()),
+            ("colors", self.colors.len()),
+            ("alphas", self.alphas.len()),
+        ];
+        for (key, given) in lists {
             if given != 0 && given != count {
                 let message = format!("there are {given} {key} for {count} vertices");
                 c.problem(key, message, Some("give one for each vertex, or none".to_owned()));
             }
         }
-        c.within("uvs", |c| {
-            for (i, uv) in self.uvs.iter().enumerate().filter(|(_, uv)| !is_finite(*uv)) {
-                c.problem(i, format!("coordinates {i} are {uv:?}"), Some("use finite numbers".to_owned()));
+        for (key, uvs) in [("uvs", self.uvs), ("uvs_1", self.uvs_1)] {
+            c.within(key, |c| {
+                for (i, uv) in uvs.iter().enumerate().filter(|(_, uv)| !is_finite(*uv)) {
+                    c.problem(i, format!("coordinates {i} are {uv:?}"), Some("use finite numbers".to_owned()));
+                }
+            });
+        }
+        c.within("tangents", |c| {
+            for (i, tangent) in self.tangents.iter().enumerate().filter(|(_, t)| !is_finite(*t)) {
+                c.problem(i, format!("tangent {i} is {tangent:?}"), Some("use finite numbers".to_owned()));
             }
         });
         c.within("colors", |c| {
@@ -234,6 +312,11 @@ impl<'a> Mesh<'a> {
             for (i, color) in self.colors.iter().enumerate().filter(|(_, color)| !is_color(*color)) {
                 let hint = "use finite numbers that are not negative".to_owned();
                 c.problem(i, format!("color {i} is {color:?}"), Some(hint));
+            }
+        });
+        c.within("alphas", |c| {
+            for (i, alpha) in self.alphas.iter().enumerate().filter(|(_, alpha)| !(0.0..=1.0).contains(*alpha)) {
+                c.problem(i, format!("alpha {i} is {alpha}"), Some("use numbers from 0 to 1".to_owned()));
             }
         });
         c.within("normals", |c| {
@@ -259,7 +342,10 @@ impl ShapeDesc for MeshDesc {
             ("triangles", self.triangles.is_empty()),
             ("normals", self.normals.is_empty()),
             ("uvs", self.uvs.is_empty()),
+            ("uvs_1", self.uvs_1.is_empty()),
+            ("tangents", self.tangents.is_empty()),
             ("colors", self.colors.is_empty()),
+            ("alphas", self.alphas.is_empty()),
         ];
         let list = lists.iter().find(|(_, is_empty)| !is_empty).map(|(name, _)| name);
         match (&self.file, list) {
@@ -301,8 +387,17 @@ impl ShapeDesc for MeshDesc {
     }
 
     fn vertex_data(&self) -> Option<VertexData> {
-        let Mesh { triangles, uvs, colors, .. } = self.mesh();
-        let data = || VertexData { triangles: triangles.into(), uvs: uvs.into(), colors: colors.into() };
-        (!uvs.is_empty() || !colors.is_empty()).then(data)
+        let Mesh { triangles, uvs, uvs_1, tangents, colors, alphas, .. } = self.mesh();
+        let data = || VertexData {
+            triangles: triangles.into(),
+            uvs: uvs.into(),
+            uvs_1: uvs_1.into(),
+            tangents: tangents.into(),
+            colors: colors.into(),
+            alphas: alphas.into(),
+        };
+        let has_any =
+            !uvs.is_empty() || !uvs_1.is_empty() || !tangents.is_empty() || !colors.is_empty() || !alphas.is_empty();
+        has_any.then(data)
     }
 }

@@ -13,7 +13,7 @@
 //!   ch. 4, doi:10.1007/978-1-4842-7185-8_4).
 
 use eyebeam_bvh::Hit;
-use glam::{DVec3, Vec3};
+use glam::{DVec3, Vec2, Vec3};
 
 use crate::math::reflect_at;
 
@@ -37,6 +37,14 @@ impl Smooth {
     /// One normal a vertex, of any length; triangles with a vertex whose normal has none stay flat.
     pub(crate) fn new(triangles: Vec<[u32; 3]>, normals: &[[f32; 3]]) -> Self {
         Self { triangles, normals: normals.iter().map(|&n| Vec3::from(n).normalize_or_zero()).collect() }
+    }
+
+    /// Where the second and third corner of a triangle have these weights, of any length; none where it is flat.
+    pub(crate) fn normal(&self, triangle: u32, weights: Vec2) -> Option<Vec3> {
+        let normals = self.triangles.get(triangle as usize)?.map(|i| self.normals.get(i as usize).copied());
+        let [a, b, c] = [normals[0]?, normals[1]?, normals[2]?];
+        let is_flat = [a, b, c].contains(&Vec3::ZERO);
+        (!is_flat).then(|| a * (1.0 - weights.x - weights.y) + b * weights.x + c * weights.y)
     }
 
     /// At a point of a triangle of geometric normal `n` that is seen along a ray of direction `d`.

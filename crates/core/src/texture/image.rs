@@ -79,7 +79,7 @@ impl ImageTexture {
 
     pub(super) fn check(&self, c: &mut Checker) {
         self.mapping.check(c);
-        if self.triplanar && self.mapping.space == Some(Space::Uv) {
+        if self.triplanar && matches!(self.mapping.space, Some(Space::Uv | Space::Uv1)) {
             let hint = "leave `space` out, or use \"world\" or \"object\"".to_owned();
             c.problem("triplanar", "what is projected along three axes lies in no `space = \"uv\"`", Some(hint));
         }

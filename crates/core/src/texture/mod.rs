@@ -92,6 +92,8 @@ pub enum TextureDesc {
 pub struct TexturePoint {
     /// Coordinates on the shape.
     pub uv: Vec2,
+    /// The second ones of a mesh that has them.
+    pub uv_1: Option<Vec2>,
     /// Place in the world, metres.
     pub p: Vec3,
     /// Place from the shape's own origin, metres; where the shape is without motion.
@@ -102,6 +104,8 @@ pub struct TexturePoint {
     pub n_object: Vec3,
     /// What the vertices of a mesh say.
     pub vertex_color: Option<Rgb>,
+    /// The share that they say besides.
+    pub vertex_alpha: Option<f32>,
 }
 
 /// What materials ask for what they do not hold themselves: colours, and how coordinates lie on the shape.
@@ -112,6 +116,17 @@ pub trait Textures {
     /// The unit direction in the plane of the surface, in the material's frame, in which the first coordinate on the shape grows.
     fn u_axis(&self) -> Vec2 {
         Vec2::X
+    }
+
+    /// Whether the second coordinate grows to the right of that, seen from above, instead of to the left.
+    fn is_mirrored(&self) -> bool {
+        false
+    }
+
+    /// A unit direction of growing u, growing v and the shape's own normal, without what textures do to it, in the material's frame; a normal
+    /// that is bent until the view sees its mirror image.
+    fn above_smooth(&self, w: Vec3) -> Vec3 {
+        w
     }
 }
 
@@ -136,9 +151,9 @@ pub struct TexturesAt<'t> {
 
 impl TexturesAt<'_> {
     /// The same at a point that is a little off, by so many metres in the world and on the shape, and coordinates.
-    pub(crate) fn moved(&self, by: Vec3, by_object: Vec3, uv: Vec2) -> Self {
+    pub(crate) fn moved(&self, by: Vec3, by_object: Vec3, [uv, uv_1]: [Vec2; 2]) -> Self {
         let [p, p_object] = [self.at.p + by, self.at.p_object + by_object];
-        let at = TexturePoint { uv: self.at.uv + uv, p, p_object, ..self.at };
+        let at = TexturePoint { uv: self.at.uv + uv, uv_1: self.at.uv_1.map(|at| at + uv_1), p, p_object, ..self.at };
         Self { at, ..*self }
     }
 }

@@ -26,11 +26,13 @@ use crate::validate::Checker;
 pub struct VertexColor {
     /// Of shapes that are no meshes, or whose vertices have no colours.
     pub otherwise: Rgb,
+    /// The `alphas` of vertices, as a grey, instead of their colours.
+    pub alpha: bool,
 }
 
 impl Default for VertexColor {
     fn default() -> Self {
-        Self { otherwise: Rgb::grey(0.8) }
+        Self { otherwise: Rgb::grey(0.8), alpha: false }
     }
 }
 
@@ -40,6 +42,7 @@ impl VertexColor {
     }
 
     pub(super) fn color(&self, at: &TexturePoint) -> Spectrum {
-        at.vertex_color.unwrap_or(self.otherwise).into()
+        let said = if self.alpha { at.vertex_alpha.map(Rgb::grey) } else { at.vertex_color };
+        said.unwrap_or(self.otherwise).into()
     }
 }

@@ -6,6 +6,7 @@ mod analytic;
 mod aov;
 mod copies;
 mod determinism;
+mod directions;
 mod error;
 mod furnace;
 mod lamps;

@@ -31,7 +31,7 @@ fn is_near(a: [f32; 3], b: [f32; 3]) -> bool {
 
 #[test]
 fn colours_of_vertices_are_interpolated() {
-    let texture = VertexColor { otherwise: Rgb([0.1, 0.2, 0.3]) };
+    let texture = VertexColor { otherwise: Rgb([0.1, 0.2, 0.3]), alpha: false };
     let scene = scene(TextureDesc::VertexColor(texture), |desc| {
         let vertices = [[0.0; 3], [1.0, 0.0, 0.0], [0.0, 0.0, 1.0], [5.0, 0.0, 0.0], [6.0, 0.0, 0.0], [5.0, 0.0, 1.0]];
         let colors = vec![[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]];
@@ -45,6 +45,48 @@ fn colours_of_vertices_are_interpolated() {
         assert!(is_near(found, [1.0 - x - z, x, z]), "{found:?}");
     }
     assert_eq!(albedo(&scene, 5.2, 0.2), [0.1, 0.2, 0.3]);
+}
+
+/// Shares of vertices are a grey of their own.
+#[test]
+fn alphas_of_vertices_are_interpolated() {
+    let texture = VertexColor { otherwise: Rgb([0.1, 0.2, 0.3]), alpha: true };
+    let scene = scene(TextureDesc::VertexColor(texture), |desc| {
+        let vertices = vec![[0.0; 3], [1.0, 0.0, 0.0], [0.0, 0.0, 1.0]];
+        let colors = vec![[1.0; 3]; 3];
+        let all = MeshDesc { vertices, colors, triangles: vec![[0, 1, 2]], ..MeshDesc::default() };
+        desc.shape.mesh.push(MeshDesc { alphas: vec![0.0, 0.5, 1.0], ..all.clone() });
+        let vertices = all.vertices.iter().map(|[x, y, z]| [x + 5.0, *y, *z]).collect();
+        desc.shape.mesh.push(MeshDesc { vertices, ..all });
+    });
+    assert!(is_near(albedo(&scene, 0.2, 0.3), [0.4; 3]));
+    assert_eq!(albedo(&scene, 5.2, 0.3), [0.1, 0.2, 0.3]);
+}
+
+/// A texture lies as the first or the second coordinates of a mesh say; as the first where there are no others.
+#[test]
+fn a_mesh_has_two_sets_of_coordinates() {
+    let along = |space| {
+        let mapping = Mapping { space: Some(space), ..Mapping::default() };
+        TextureDesc::Gradient(Gradient { mapping, ..Gradient::default() })
+    };
+    let tile = |desc: &mut SceneDesc| {
+        let first = MeshDesc {
+            vertices: vec![[0.0; 3], [0.0, 0.0, 1.0], [1.0, 0.0, 0.0]],
+            triangles: vec![[0, 1, 2]],
+            uvs: vec![[0.0, 0.0], [0.0, 0.0], [1.0, 0.0]],
+            ..MeshDesc::default()
+        };
+        let away = |[x, y, z]: [f32; 3]| [x + 5.0, y, z];
+        let uvs_1 = vec![[0.0, 0.0], [1.0, 0.0], [0.0, 0.0]];
+        let both = MeshDesc { uvs_1, vertices: first.vertices.iter().copied().map(away).collect(), ..first.clone() };
+        desc.shape.mesh = vec![first, both];
+    };
+    let [first, second] = [Space::Uv, Space::Uv1].map(|space| scene(along(space), tile));
+    for (x, z) in [(0.1, 0.2), (0.5, 0.25)] {
+        assert!(is_near(albedo(&first, x, z), [x; 3]) && is_near(albedo(&first, 5.0 + x, z), [x; 3]));
+        assert!(is_near(albedo(&second, x, z), [x; 3]) && is_near(albedo(&second, 5.0 + x, z), [z; 3]));
+    }
 }
 
 /// In the space of their objects, textures move with the shapes.

@@ -100,7 +100,7 @@ impl Asset for IesProfile {
 
 impl From<ply::MeshData> for MeshData {
     fn from(ply::MeshData { vertices, normals, uvs, colors, triangles }: ply::MeshData) -> Self {
-        Self { vertices, triangles, normals, uvs, colors }
+        Self { vertices, triangles, normals, uvs, colors, ..Self::default() }
     }
 }
 
@@ -114,6 +114,9 @@ impl Asset for MeshData {
             + size_of_val(&*self.triangles)
             + size_of_val(&*self.normals)
             + size_of_val(&*self.uvs)
+            + size_of_val(&*self.uvs_1)
+            + size_of_val(&*self.tangents)
+            + size_of_val(&*self.alphas)
             + size_of_val(&*self.colors)
     }
 }

@@ -42,6 +42,8 @@ pub struct ReadOptions<'a> {
     pub animation: Option<&'a str>,
     /// When, seconds from its start.
     pub at: f32,
+    /// The variant of a model's materials, by its name or its number from 0; those of the file if none is said.
+    pub variant: Option<&'a str>,
 }
 
 /// A setting from outside the file, `key.key=value`: stronger than what the file says.

@@ -63,6 +63,9 @@ impl Hash {
         self.floats(mesh.vertices.as_flattened());
         self.floats(mesh.normals.as_flattened());
         self.floats(mesh.uvs.as_flattened());
+        self.floats(mesh.uvs_1.as_flattened());
+        self.floats(mesh.tangents.as_flattened());
+        self.floats(&mesh.alphas);
         self.floats(mesh.colors.as_flattened());
         self.numbers(mesh.triangles.as_flattened().iter().map(|i| i.to_le_bytes()));
     }

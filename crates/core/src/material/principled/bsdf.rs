@@ -11,7 +11,7 @@ use crate::material::microfacet::{Ggx, reflect_at, refract_at, upright};
 use crate::material::oren_nayar::OrenNayarBsdf;
 use crate::material::reflected::Boundary;
 use crate::material::{BsdfSample, Fresnel, ThinFilm};
-use crate::math::{reflect, refract};
+use crate::math::{Frame, reflect, refract};
 use crate::sampling::{cosine_hemisphere, uniform_sphere};
 
 /// The lobe of [`Principled`](super::Principled).
@@ -40,6 +40,8 @@ pub struct PrincipledBsdf {
     pub(super) transmission: Rgb,
     pub(super) coat: Boundary,
     pub(super) coat_weight: f32,
+    /// What of the coat's unit normal lies in the surface.
+    pub(super) coat_tilt: Vec2,
     /// What the coat leaves of the base's light, but for what it reflects.
     pub(super) coat_tint: Rgb,
     /// Times its weight.
@@ -72,6 +74,8 @@ struct View {
     wo: Vec3,
     /// Whether above is inside.
     inside: bool,
+    /// The frame of the coat's normal, if that is not the surface's.
+    coat: Option<Frame>,
     /// The part of the light that fuzz leaves.
     under_fuzz: f32,
     /// The part that fuzz and coat leave.
@@ -87,6 +91,16 @@ struct View {
 impl View {
     fn chance(&self, part: Part) -> f32 {
         self.chances[part as usize]
+    }
+
+    /// A direction in the frame of the coat.
+    fn to_coat(&self, w: Vec3) -> Vec3 {
+        self.coat.map_or(w, |frame| frame.to_local(w))
+    }
+
+    /// A direction from there.
+    fn from_coat(&self, w: Vec3) -> Vec3 {
+        self.coat.map_or(w, |frame| frame.to_world(w))
     }
 
     fn choose(&self, uc: f32) -> Option<Part> {
@@ -138,18 +152,33 @@ impl PrincipledBsdf {
         Some(BsdfSample { wi: self.x.rotate(sample.wi.truncate()).extend(sample.wi.z), ..sample })
     }
 
+    /// The frame around the coat's normal, as it is seen from above.
+    fn coat_frame(&self, side: f32) -> Option<Frame> {
+        (self.coat_tilt != Vec2::ZERO).then(|| {
+            let tilt = Vec2::new(self.x.x, -self.x.y).rotate(self.coat_tilt);
+            Frame::from_z((side * tilt).extend((1.0 - tilt.length_squared()).max(0.0).sqrt()))
+        })
+    }
+
     fn sample_turned(&self, wo: Vec3, uc: f32, u: Vec2) -> Option<BsdfSample> {
         let side = 1.0_f32.copysign(wo.z);
         let up = upright(wo, side);
-        let view = self.view(up, side < 0.0 && !self.is_thin);
+        let view = self.view(up, side);
         let part = view.choose(uc)?;
         let (wi, eta) = match part {
             Part::Fuzz => {
                 let wi = uniform_sphere(u);
                 (upright(wi, 1.0_f32.copysign(wi.z)), 1.0)
             }
-            Part::Coat if self.coat.is_smooth() => return Some(self.coat_mirror(wo, &view)),
-            Part::Coat => (reflect_at(up, self.coat.ggx().sample(up, u)), 1.0),
+            Part::Coat if self.coat.is_smooth() => return self.coat_mirror(&view, side),
+            Part::Coat => {
+                let above = view.to_coat(up);
+                let wi = reflect_at(above, self.coat.ggx().sample(above, u));
+                if wi.z <= 0.0 {
+                    return None;
+                }
+                (view.from_coat(wi), 1.0)
+            }
             Part::Facets if self.is_smooth() => return Some(self.mirror(wo, &view)),
             Part::Facets => (reflect_at(up, self.ggx.sample(up, u)), 1.0),
             Part::Cosine => (cosine_hemisphere(u), 1.0),
@@ -176,7 +205,7 @@ impl PrincipledBsdf {
     #[inline(never)]
     pub(crate) fn eval_pdf(&self, wo: Vec3, wi: Vec3) -> (Spectrum, f32) {
         let (wo, wi, side) = (self.turn(wo), self.turn(wi), 1.0_f32.copysign(wo.z));
-        self.eval_pdf_from(&self.view(upright(wo, side), side < 0.0 && !self.is_thin), upright(wi, side))
+        self.eval_pdf_from(&self.view(upright(wo, side), side), upright(wi, side))
     }
 
     fn eval_pdf_from(&self, view: &View, wi: Vec3) -> (Spectrum, f32) {
@@ -206,14 +235,16 @@ impl PrincipledBsdf {
             pdf += view.chance(Part::Facets) * facet.pdf;
         }
         let (coat, rough_coat) = (self.coat.ggx(), self.coat_weight > 0.0 && !self.coat.is_smooth());
-        let facet = if rough_coat { coat.facet(wo, wi, 1.0) } else { None };
+        let (wo, wi_coat) = (view.to_coat(wo), view.to_coat(wi));
+        let is_seen = rough_coat && wo.z > 0.0 && wi_coat.z > 0.0;
+        let facet = if is_seen { coat.facet(wo, wi_coat, 1.0) } else { None };
         if let Some(facet) = facet {
             let share = self.coat_weight * view.under_fuzz * self.coat.fresnel(facet.cos_o);
-            eval += Spectrum::ONE * (share * coat.g2_over_g1(wo, wi) * facet.pdf);
+            eval += Spectrum::ONE * (share * coat.g2_over_g1(wo, wi_coat) * facet.pdf);
             pdf += view.chance(Part::Coat) * facet.pdf;
         }
         if self.fuzz_weight > 0.0 {
-            let fuzz = Charlie::from_roughness(self.fuzz_roughness).eval(wo, wi) * wi.z;
+            let fuzz = Charlie::from_roughness(self.fuzz_roughness).eval(view.wo, wi) * wi.z;
             eval += Spectrum::from(self.fuzz_color) * fuzz;
             pdf += view.chance(Part::Fuzz) * 0.5 * FRAC_1_PI;
         }
@@ -255,10 +286,13 @@ impl PrincipledBsdf {
         (share * (seen * facet.pdf), view.chance(Part::Through) * facet.pdf)
     }
 
-    fn coat_mirror(&self, wo: Vec3, view: &View) -> BsdfSample {
+    fn coat_mirror(&self, view: &View, side: f32) -> Option<BsdfSample> {
+        let above = view.to_coat(view.wo);
+        let wi = view.from_coat(reflect(above));
         let chance = view.chance(Part::Coat);
-        let share = self.coat_weight * view.under_fuzz * self.coat.fresnel(view.wo.z);
-        BsdfSample { wi: reflect(wo), weight: Spectrum::ONE * (share / chance), pdf: chance, delta: true, eta: 1.0 }
+        let share = self.coat_weight * view.under_fuzz * self.coat.fresnel(above.z);
+        let weight = Spectrum::ONE * (share / chance);
+        (wi.z > 0.0).then(|| BsdfSample { wi: upright(wi, side), weight, pdf: chance, delta: true, eta: 1.0 })
     }
 
     fn mirror(&self, wo: Vec3, view: &View) -> BsdfSample {
@@ -404,13 +438,16 @@ impl PrincipledBsdf {
         (through * Spectrum::from(self.transmission)).max_component() * self.clear
     }
 
-    /// What does not depend on `wi`, for `wo` above the surface.
-    fn view(&self, wo: Vec3, inside: bool) -> View {
-        let cos = wo.z.clamp(0.0, 1.0);
+    /// What does not depend on `wi`, for `wo` above the surface, which is seen from below if `side` is -1.
+    fn view(&self, wo: Vec3, side: f32) -> View {
+        let (cos, inside) = (wo.z.clamp(0.0, 1.0), side < 0.0 && !self.is_thin);
+        let coat = self.coat_frame(side);
+        let coat_cos = coat.map_or(cos, |frame| frame.to_local(wo).z.min(1.0));
         let by_fuzz =
             if self.fuzz_weight > 0.0 { Charlie::from_roughness(self.fuzz_roughness).share(cos) } else { 0.0 };
         let under_fuzz = 1.0 - self.fuzz_weight * by_fuzz;
-        let by_coat = if self.coat_weight > 0.0 { self.coat_weight * self.coat.share(cos) } else { 0.0 };
+        let sees_coat = self.coat_weight > 0.0 && (coat_cos > 0.0 || coat.is_none());
+        let by_coat = if sees_coat { self.coat_weight * self.coat.share(coat_cos) } else { 0.0 };
         let under_coat = under_fuzz * (1.0 - by_coat);
         let left = if self.opaque > 0.0 { self.left_by_facets(cos) } else { Spectrum::ONE };
         let (often, often_share) = self.facet_to_facet(wo);
@@ -429,12 +466,12 @@ impl PrincipledBsdf {
         if sum > 0.0 {
             chances.iter_mut().for_each(|chance| *chance /= sum);
         }
-        View { wo, inside, under_fuzz, under_coat, left, often, chances }
+        View { wo, inside, coat, under_fuzz, under_coat, left, often, chances }
     }
 
     /// About the share of light from straight above that is scattered, to either side.
     pub(crate) fn albedo(&self) -> Spectrum {
-        let view = self.view(Vec3::Z, false);
+        let view = self.view(Vec3::Z, 1.0);
         let base = self.by_facets(1.0, false, view.left)
             + Spectrum::from(self.matte) * view.left
             + Spectrum::from(self.transmission) * self.clear;

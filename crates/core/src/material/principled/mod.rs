@@ -47,6 +47,7 @@ mod bsdf;
 #[cfg(test)]
 mod tests;
 
+use glam::{Vec2, Vec3};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
@@ -54,6 +55,7 @@ use crate::color::{LUMENS_PER_WATT, Rgb, Spectrum};
 use crate::material::microfacet::Ggx;
 use crate::material::reflected::Boundary;
 use crate::material::{Emission, ThinFilm};
+use crate::math::sin_cos_turns;
 use crate::medium::Filling;
 use crate::names::Named;
 use crate::texture::{Color, Scalar, Textures};
@@ -88,6 +90,9 @@ pub struct Principled {
     /// of that along. Above 0.9 it is as at 0.9.
     #[schemars(range(min = 0.0, max = 1.0))]
     pub specular_roughness_anisotropy: Scalar,
+    /// Turns that axis counter-clockwise, towards growing v, degrees, -10000..10000.
+    #[schemars(range(min = -1e4, max = 1e4))]
+    pub specular_rotation: f32,
     /// Index of refraction of what is not metal, 1..3.
     #[schemars(range(min = 1.0, max = 3.0))]
     pub specular_ior: f32,
@@ -142,6 +147,17 @@ pub struct Principled {
     pub emission_luminance: f32,
     /// Color of that light, 0..1 in each channel.
     pub emission_color: Color,
+    /// The direction in which highlights are long, before `specular_rotation`, as a colour: red and green from 0 to 1 are from -1 to 1 along growing
+    /// u and v, as in pictures of normals. Along growing u if absent.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub geometry_tangent: Option<Color>,
+    /// Normals of the coat, as colours, over the shape's own ones, whatever normal maps and reliefs do to what is below: [0.5, 0.5, 1] is as
+    /// smooth as the shape. As those of what is below if absent.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub geometry_coat_normal: Option<Color>,
+    /// Factor on the slopes of these, -100..100.
+    #[schemars(range(min = -100.0, max = 100.0))]
+    pub geometry_coat_normal_strength: f32,
     /// Whether the surface is a sheet without an inside, such as a pane or a leaf, that light goes through unbent.
     pub geometry_thin_walled: bool,
 }
@@ -158,6 +174,7 @@ impl Default for Principled {
             specular_color: grey(1.0),
             specular_roughness: 0.3.into(),
             specular_roughness_anisotropy: 0.0.into(),
+            specular_rotation: 0.0,
             specular_ior: 1.5,
             transmission_weight: 0.0.into(),
             transmission_color: grey(1.0),
@@ -177,6 +194,9 @@ impl Default for Principled {
             thin_film_ior: 1.4,
             emission_luminance: 0.0,
             emission_color: grey(1.0),
+            geometry_tangent: None,
+            geometry_coat_normal: None,
+            geometry_coat_normal_strength: 1.0,
             geometry_thin_walled: false,
         }
     }
@@ -193,6 +213,8 @@ impl Principled {
         c.in_range("emission_luminance", self.emission_luminance, 0.0, 1e9);
         c.in_range("transmission_depth", self.transmission_depth, 0.0, 1e15);
         c.in_range("thin_film_ior", self.thin_film_ior, 1.0, ThinFilm::MAX_ETA);
+        c.in_range("specular_rotation", self.specular_rotation, -1e4, 1e4);
+        c.in_range("geometry_coat_normal_strength", self.geometry_coat_normal_strength, -100.0, 100.0);
         let mut copy = self.clone();
         let (colors, numbers) = copy.parts();
         colors.into_iter().for_each(|(key, color)| color.check_share(key, c));
@@ -201,8 +223,8 @@ impl Principled {
 
     /// Its colours and its numbers that can be textures, by their keys, and how large numbers can be.
     #[expect(clippy::type_complexity, reason = "said once")]
-    fn parts(&mut self) -> ([(&'static str, &mut Color); 7], [(&'static str, &mut Scalar, f32); 14]) {
-        let colors = [
+    fn parts(&mut self) -> (Vec<(&'static str, &mut Color)>, [(&'static str, &mut Scalar, f32); 14]) {
+        let mut colors = vec![
             ("base_color", &mut self.base_color),
             ("specular_color", &mut self.specular_color),
             ("transmission_color", &mut self.transmission_color),
@@ -211,6 +233,9 @@ impl Principled {
             ("fuzz_color", &mut self.fuzz_color),
             ("emission_color", &mut self.emission_color),
         ];
+        // See `directions`.
+        colors.extend(self.geometry_tangent.as_mut().map(|color| ("geometry_tangent", color)));
+        colors.extend(self.geometry_coat_normal.as_mut().map(|color| ("geometry_coat_normal", color)));
         let numbers = [
             ("base_weight", &mut self.base_weight, 1.0),
             ("base_diffuse_roughness", &mut self.base_diffuse_roughness, 1.0),
@@ -230,6 +255,14 @@ impl Principled {
         (colors, numbers)
     }
 
+    /// Its colours that are directions, by their keys.
+    pub(crate) fn directions(&self) -> [(&'static str, Option<&Color>); 2] {
+        [
+            ("geometry_tangent", self.geometry_tangent.as_ref()),
+            ("geometry_coat_normal", self.geometry_coat_normal.as_ref()),
+        ]
+    }
+
     /// The textures that it takes, by their keys.
     pub(crate) fn textures(&mut self) -> Named<'_> {
         let (colors, numbers) = self.parts();
@@ -237,9 +270,35 @@ impl Principled {
         colors.chain(numbers.into_iter().map(|(key, number, _)| (key, number.texture()))).collect()
     }
 
-    /// Whether highlights can have a direction.
-    pub(crate) fn is_anisotropic(&self) -> bool {
-        self.specular_roughness_anisotropy.number() != Some(0.0)
+    /// Whether highlights, or the coat, can have a direction.
+    pub(crate) fn has_directions(&self) -> bool {
+        self.specular_roughness_anisotropy.number() != Some(0.0) || self.geometry_coat_normal.is_some()
+    }
+
+    /// In which direction highlights are long, of unit length, in the surface's frame.
+    fn long_axis(&self, textures: &impl Textures) -> Vec2 {
+        let along_u = textures.u_axis();
+        if self.specular_rotation == 0.0 && self.geometry_tangent.is_none() {
+            return along_u;
+        }
+        let turns = self.specular_rotation / 360.0;
+        let (sin, cos) = sin_cos_turns(turns - turns.floor());
+        let by_texture = self.geometry_tangent.as_ref().and_then(|map| {
+            let [x, y, _] = map.share_at(textures).to_rgb();
+            (2.0 * Vec2::new(x, y) - 1.0).try_normalize()
+        });
+        let turned = Vec2::new(cos, sin).rotate(by_texture.unwrap_or(Vec2::X));
+        along_u.rotate(if textures.is_mirrored() { Vec2::new(turned.x, -turned.y) } else { turned })
+    }
+
+    /// How far the coat's normal is from that of the surface, in its frame.
+    fn coat_tilt(&self, textures: &impl Textures) -> Vec2 {
+        let Some(map) = &self.geometry_coat_normal else { return Vec2::ZERO };
+        let strength = Vec3::new(self.geometry_coat_normal_strength, self.geometry_coat_normal_strength, 1.0);
+        let n = (2.0 * Vec3::from(map.share_at(textures).to_rgb()) - 1.0) * strength;
+        let n = textures.above_smooth(n.normalize_or(Vec3::Z));
+        // Where it is on the other side of the surface, it is as steep as can be.
+        n.with_z(n.z.max(0.05)).normalize().truncate()
     }
 
     /// The light that it sends out, if any.
@@ -291,12 +350,13 @@ impl Principled {
             clear,
             ggx: facets(coat.roughen(roughness), number(&self.specular_roughness_anisotropy)),
             eta: coat.eta_below(self.specular_ior, specular),
-            x: textures.u_axis(),
+            x: self.long_axis(textures),
             eta_through: if self.geometry_thin_walled { 1.0 } else { self.specular_ior },
             is_thin: self.geometry_thin_walled,
             transmission: if self.is_filled() { Rgb::grey(1.0) } else { Rgb(color(&self.transmission_color).to_rgb()) },
             coat: coat.boundary,
             coat_weight,
+            coat_tilt: if coat_weight > 0.0 { self.coat_tilt(textures) } else { Vec2::ZERO },
             coat_tint: Rgb(Spectrum::ONE.lerp(tint, coat_weight).to_rgb()),
             fuzz_color: Rgb((color(&self.fuzz_color) * fuzz).to_rgb()),
             fuzz_weight: fuzz,

@@ -96,6 +96,48 @@ fn layers() {
     }
 }
 
+/// A coat whose normals are not those of the surface, as steep as can be and hardly.
+#[test]
+fn tilted_coats() {
+    for (normal, roughness) in [([0.6, 0.45, 0.95], 0.4_f32), ([0.6, 0.45, 0.95], 0.0), ([0.95, 0.5, 0.55], 0.3)] {
+        let coated = Principled {
+            coat_weight: 1.0.into(),
+            coat_roughness: roughness.into(),
+            geometry_coat_normal: Some(Rgb(normal).into()),
+            specular_roughness: 0.5.into(),
+            specular_roughness_anisotropy: 0.5.into(),
+            specular_rotation: 20.0,
+            ..white()
+        };
+        check_lobe(&lobe(&coated), Reciprocal::No).unwrap();
+        for cos in [1.0, 0.6, 0.2] {
+            assert!(share(&coated, cos).into_iter().all(|(share, error)| share < 1.01 + 3.0 * error));
+        }
+    }
+    let smooth = Principled { coat_weight: 1.0.into(), ..white() };
+    let same = Principled { geometry_coat_normal: Some(rgb(0.5, 0.5, 1.0)), ..smooth.clone() };
+    let (wo, wi) = (direction(0.7), direction(0.4));
+    assert_eq!(lobe(&same).eval(wo, wi).to_rgb(), lobe(&smooth).eval(wo, wi).to_rgb());
+}
+
+/// Long highlights are turned by degrees, by a texture, and by both.
+#[test]
+fn long_highlights_are_turned() {
+    let brushed = Principled { specular_roughness_anisotropy: 0.8.into(), ..metal(0.4) };
+    let (wo, wi) = (direction(0.7), direction(0.4));
+    let turned = |w: Vec3, degrees: f32| Vec2::from_angle(degrees.to_radians()).rotate(w.truncate()).extend(w.z);
+    let eval = |material: &Principled, by: f32| lobe(material).eval(turned(wo, by), turned(wi, by)).to_rgb()[0];
+    let quarter = Some(rgb(0.5, 1.0, 0.5));
+    for (specular_rotation, geometry_tangent, by) in
+        [(30.0, None, 30.0), (-400.0, None, -40.0), (0.0, quarter.clone(), 90.0), (30.0, quarter, 120.0)]
+    {
+        let turned = Principled { specular_rotation, geometry_tangent, ..brushed.clone() };
+        let (expected, found) = (eval(&brushed, 0.0), eval(&turned, by));
+        assert!((found - expected).abs() < 1e-3 * expected, "{found}, not {expected}, turned by {by}");
+        assert!((eval(&turned, 0.0) - expected).abs() > 0.05 * expected);
+    }
+}
+
 /// A white furnace: white layers keep all light, whatever their roughness, and whatever lies above them.
 #[test]
 fn white_keeps_all_light() {

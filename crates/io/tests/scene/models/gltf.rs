@@ -6,7 +6,7 @@ use eyebeam_core::color::LUMENS_PER_WATT;
 use eyebeam_core::material::{MaterialDesc, Principled};
 use eyebeam_core::setup::Given;
 use eyebeam_core::shape::MeshData;
-use eyebeam_core::texture::{Color, TextureDesc};
+use eyebeam_core::texture::{Color, ImageTexture, Space, TextureDesc};
 use eyebeam_io::Error;
 use eyebeam_io::scene::{ReadOptions, SceneFile, read, read_with};
 use serde_json::{Value, json};
@@ -14,7 +14,7 @@ use tempfile::TempDir;
 
 /// A file of one upright triangle, with its numbers behind the JSON: indices at 0, positions at 8, uvs at 44, four joints a vertex at 68,
 /// four weights at 80.
-fn triangle() -> Value {
+pub(super) fn triangle() -> Value {
     let view = |at: usize, length: usize| json!({ "buffer": 0, "byteOffset": at, "byteLength": length });
     json!({
         "asset": { "version": "2.0" },
@@ -35,7 +35,7 @@ fn triangle() -> Value {
     })
 }
 
-fn numbers() -> Vec<u8> {
+pub(super) fn numbers() -> Vec<u8> {
     let mut bytes: Vec<u8> = [0_u16, 1, 2, 0].iter().flat_map(|i| i.to_le_bytes()).collect();
     let floats = [0.0_f32, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0, 2.0, 0.0, 0.0, 1.0, 1.0, 1.0, 0.0, 0.0];
     bytes.extend(floats.iter().flat_map(|f| f.to_le_bytes()));
@@ -44,7 +44,7 @@ fn numbers() -> Vec<u8> {
     bytes
 }
 
-fn glb(document: &Value) -> Vec<u8> {
+pub(super) fn glb(document: &Value) -> Vec<u8> {
     let mut json = document.to_string().into_bytes();
     json.resize(json.len().next_multiple_of(4), b' ');
     let numbers = numbers();
@@ -59,27 +59,27 @@ fn glb(document: &Value) -> Vec<u8> {
     .concat()
 }
 
-fn read_bytes(bytes: &[u8]) -> Result<SceneFile, Error> {
+pub(super) fn read_bytes(bytes: &[u8]) -> Result<SceneFile, Error> {
     read_as(bytes, &ReadOptions::default())
 }
 
-fn read_as(bytes: &[u8], options: &ReadOptions<'_>) -> Result<SceneFile, Error> {
+pub(super) fn read_as(bytes: &[u8], options: &ReadOptions<'_>) -> Result<SceneFile, Error> {
     let folder = TempDir::new().unwrap();
     let path = folder.path().join("a.glb");
     fs::write(&path, bytes).unwrap();
     read_with(&path, options)
 }
 
-fn model(document: &Value) -> SceneFile {
+pub(super) fn model(document: &Value) -> SceneFile {
     read_bytes(&glb(document)).unwrap()
 }
 
-fn error(document: &Value) -> String {
+pub(super) fn error(document: &Value) -> String {
     read_bytes(&glb(document)).unwrap_err().to_string().lines().next().unwrap().to_owned()
 }
 
 /// The same with other values, by JSON pointers.
-fn with(changes: &[(&str, Value)]) -> Value {
+pub(super) fn with(changes: &[(&str, Value)]) -> Value {
     let mut document = triangle();
     for (pointer, value) in changes {
         let (parent, key) = pointer.rsplit_once('/').unwrap();
@@ -95,11 +95,11 @@ fn with(changes: &[(&str, Value)]) -> Value {
     document
 }
 
-fn mesh(file: &SceneFile) -> &MeshData {
+pub(super) fn mesh(file: &SceneFile) -> &MeshData {
     file.desc.shape.mesh[0].data.as_ref().unwrap()
 }
 
-fn principled(file: &SceneFile) -> &Principled {
+pub(super) fn principled(file: &SceneFile) -> &Principled {
     match &file.desc.material["paint"] {
         MaterialDesc::Principled(principled) => principled,
         other => panic!("{other:?}"),
@@ -288,8 +288,6 @@ fn alpha_is_a_mask_and_unlit_a_lamp() {
 
 #[test]
 fn pictures_are_read_from_data_and_missing_ones_told_of() {
-    // One red pixel.
-    let png = "iVBORw0KGgoAAAANSUhEUgAAAAEAAAABCAIAAACQd1PeAAAADElEQVR4nGP4z8AAAAMBAQDJ/pLvAAAAAElFTkSuQmCC";
     let changes = |uri: String| {
         with(&[
             ("/images", json!([{ "uri": uri }])),
@@ -300,7 +298,7 @@ fn pictures_are_read_from_data_and_missing_ones_told_of() {
             ),
         ])
     };
-    let file = model(&changes(format!("data:image/png;base64,{png}")));
+    let file = model(&changes(PNG.to_owned()));
     assert_eq!(file.warnings, []);
     let p = principled(&file);
     let Color::Texture(name) = &p.base_color else { panic!("{:?}", p.base_color) };
@@ -347,6 +345,39 @@ fn pictures_of_extensions_are_read() {
     );
 }
 
+/// One red pixel.
+pub(super) const PNG: &str = "data:image/png;base64,iVBORw0KGgoAAAANSUhEUgAAAAEAAAABCAIAAACQd1PeAAAADElEQVR4nGP4z8AAAAMBAQDJ/pLvAAAAAElFTkSuQmCC";
+
+/// The same, with the red picture as texture 0.
+pub(super) fn with_picture(changes: &[(&str, Value)]) -> Value {
+    let picture = [("/images", json!([{ "uri": PNG }])), ("/textures", json!([{ "source": 0 }]))];
+    with(&[&picture, changes].concat())
+}
+
+pub(super) fn picture<'f>(file: &'f SceneFile, name: &str) -> &'f ImageTexture {
+    match &file.desc.texture[name] {
+        TextureDesc::Image(image) => image,
+        other => panic!("{name}: {other:?}"),
+    }
+}
+
+#[test]
+fn a_texture_lies_by_the_second_coordinates() {
+    let painted = |set: u32| {
+        with_picture(&[
+            ("/meshes/0/primitives/0/attributes", json!({ "POSITION": 1, "TEXCOORD_0": 2, "TEXCOORD_1": 2 })),
+            ("/materials/0/pbrMetallicRoughness", json!({ "baseColorTexture": { "index": 0, "texCoord": set } })),
+        ])
+    };
+    let [first, second, third] = [0, 1, 2].map(|set| model(&painted(set)));
+    let spaces = [&first, &second, &third].map(|file| picture(file, "paint.base-color.picture").mapping.space);
+    assert_eq!(spaces, [None, Some(Space::Uv1), None]);
+    assert_eq!(mesh(&second).uvs_1, [[0.0, 0.0], [1.0, 0.0], [0.0, 1.0]]);
+    assert_eq!((&first.warnings, &second.warnings), (&vec![], &vec![]));
+    let message = "material `paint`: texture 0 lies as TEXCOORD_0 says, not as TEXCOORD_2 does";
+    assert_eq!(third.warnings[0].message, message);
+}
+
 #[test]
 fn what_is_wrong_is_said() {
     let cases: &[(&str, Value, &str)] = &[
@@ -384,7 +415,7 @@ fn pieces_and_flipped_bytes_do_no_harm() {
 }
 
 /// Reads files with four wrong bytes each.
-fn flip(whole: &[u8], times: usize) {
+pub(super) fn flip(whole: &[u8], times: usize) {
     let mut state = 1_u64;
     for _ in 0..times {
         let mut bytes = whole.to_vec();

@@ -2,6 +2,7 @@
 
 mod draco;
 mod gltf;
+mod gltf_materials;
 mod obj;
 mod stl;
 

@@ -3,6 +3,7 @@
 use std::collections::BTreeMap;
 
 use serde::Deserialize;
+use serde::de::IgnoredAny;
 use serde_json::Value;
 
 /// What an object says besides what the core of glTF 2.0 knows, by the extension's name.
@@ -42,6 +43,7 @@ pub(super) struct Asset {
 #[serde(default)]
 pub(super) struct Scene {
     pub(super) nodes: Vec<usize>,
+    pub(super) extensions: Extensions,
 }
 
 #[derive(Debug, Default, Deserialize)]
@@ -137,6 +139,7 @@ pub(super) struct Material {
     pub(super) name: String,
     pub(super) pbr_metallic_roughness: Pbr,
     pub(super) normal_texture: Option<TextureInfo>,
+    pub(super) occlusion_texture: Option<IgnoredAny>,
     pub(super) emissive_texture: Option<TextureInfo>,
     pub(super) emissive_factor: [f32; 3],
     pub(super) alpha_mode: Option<String>,

@@ -3,13 +3,13 @@
 //! | glTF | principled |
 //! |---|---|
 //! | base colour, metallic, roughness | base_color, base_metalness, specular_roughness |
-//! | clearcoat | coat, without a normal map of its own |
+//! | clearcoat | coat, with normals of its own |
 //! | sheen | fuzz, of the weight of its brightest channel |
 //! | transmission | transmission; a sheet (thin-walled) unless there is a volume |
 //! | volume | transmission_color at transmission_depth; the base colour tints only sheets |
 //! | specular, ior | specular_weight, specular_color up to 1, specular_ior |
 //! | iridescence | thin_film |
-//! | anisotropy | specular_roughness_anisotropy, not turned |
+//! | anisotropy | specular_roughness_anisotropy, specular_rotation, geometry_tangent |
 //! | emissive, emissive_strength | emission |
 //! | diffuse transmission | mixed with `diffuse-transmission`, which has no gloss |
 //! | normal texture | `normal-map` |
@@ -31,8 +31,7 @@ use eyebeam_core::texture::{
 
 use crate::scene::model::gltf::document::{Document, Material, TextureInfo};
 use crate::scene::model::gltf::extensions::{
-    Anisotropy, Clearcoat, EmissiveStrength, Ior, Iridescence, Leaf, Sheen, Specular, SpecularGlossiness, Transmission,
-    Volume, get,
+    Clearcoat, EmissiveStrength, Ior, Iridescence, Leaf, Sheen, Specular, SpecularGlossiness, Transmission, Volume, get,
 };
 use crate::scene::model::gltf::texture::Pictures;
 use crate::warning::Warning;
@@ -43,9 +42,20 @@ pub(super) struct Materials<'a> {
     pub(super) pictures: &'a Pictures,
     /// The file's name.
     pub(super) file: &'a str,
-    /// Names by the index of a material, and whether vertices have colours.
-    names: BTreeMap<(Option<usize>, bool), String>,
+    /// Names by the index of a material, and what vertices say.
+    names: BTreeMap<(Option<usize>, Painted), String>,
 }
+
+/// What vertices say to materials.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
+pub(super) struct Painted {
+    /// Whether they have colours.
+    pub(super) colors: bool,
+    /// Whether they have alphas.
+    pub(super) alphas: bool,
+}
+
+const OCCLUSION: &str = "occlusion is computed, not read";
 
 impl<'a> Materials<'a> {
     pub(super) fn new(document: &'a Document, pictures: &'a Pictures, file: &'a str) -> Self {
@@ -56,12 +66,12 @@ impl<'a> Materials<'a> {
     pub(super) fn name(
         &mut self,
         index: Option<usize>,
-        has_colors: bool,
+        painted: Painted,
         desc: &mut SceneDesc,
         warnings: &mut Vec<Warning>,
     ) -> String {
         let index = index.filter(|&i| i < self.document.materials.len());
-        if let Some(known) = self.names.get(&(index, has_colors)) {
+        if let Some(known) = self.names.get(&(index, painted)) {
             return known.clone();
         }
         let default = Material::default();
@@ -71,16 +81,24 @@ impl<'a> Materials<'a> {
             name = (2..).map(|n| format!("{name}-{n}")).find(|name| !desc.material.contains_key(name)).unwrap_or(name);
         }
         let count = warnings.len();
-        Maker { all: self, material, name: &name, has_colors, desc, warnings }.make();
+        Maker { all: self, material, name: &name, painted, desc, warnings }.make();
         for warning in warnings.iter_mut().skip(count) {
             warning.message = format!("material `{name}`: {}", warning.message);
         }
-        self.names.insert((index, has_colors), name.clone());
+        if material.occlusion_texture.is_some() && warnings.iter().all(|w| w.message != OCCLUSION) {
+            warnings.push(Warning::new(OCCLUSION));
+        }
+        self.names.insert((index, painted), name.clone());
         name
     }
 }
 
 impl Material {
+    /// Whether parts of it can be missing.
+    pub(super) fn uses_alpha(&self) -> bool {
+        matches!(self.alpha_mode.as_deref(), Some("MASK" | "BLEND"))
+    }
+
     /// Whether it hides what is behind it from its front only. What light goes through has two sides.
     pub(super) fn is_one_sided(&self) -> bool {
         let through = ["KHR_materials_transmission", "KHR_materials_diffuse_transmission"];
@@ -96,11 +114,11 @@ pub(super) fn front(desc: &mut SceneDesc, of: &str) -> String {
 }
 
 /// One material in the making.
-struct Maker<'m, 'a> {
+pub(super) struct Maker<'m, 'a> {
     all: &'m Materials<'a>,
-    material: &'m Material,
+    pub(super) material: &'m Material,
     name: &'m str,
-    has_colors: bool,
+    painted: Painted,
     desc: &'m mut SceneDesc,
     warnings: &'m mut Vec<Warning>,
 }
@@ -198,18 +216,22 @@ impl Maker<'_, '_> {
         };
         let [r, g, b, a] = factor.unwrap_or([1.0; 4]);
         let mut color = self.color(info, [r, g, b], Encoding::Auto, "base-color");
-        if self.has_colors {
-            let vertices =
-                self.texture("vertices", TextureDesc::VertexColor(VertexColor { otherwise: Rgb::grey(1.0) }));
+        let of_vertices = |alpha| TextureDesc::VertexColor(VertexColor { otherwise: Rgb::grey(1.0), alpha });
+        if self.painted.colors {
+            let vertices = self.texture("vertices", of_vertices(false));
             color = self.product("base-color.painted", color, Color::Texture(vertices));
         }
-        let uses_alpha = matches!(self.material.alpha_mode.as_deref(), Some("MASK" | "BLEND"));
+        let uses_alpha = self.material.uses_alpha();
         let image = info.filter(|_| uses_alpha).and_then(|info| self.image(info, Encoding::Auto, true, "alpha"));
         let factor = Color::from(Rgb::grey(bounded(a, 0.0, 1.0)));
-        let alpha = match image {
+        let mut alpha = match image {
             Some(image) => self.product("alpha.scaled", Color::Texture(image), factor),
             None => factor,
         };
+        if self.painted.alphas && uses_alpha {
+            let vertices = self.texture("vertices.alpha", of_vertices(true));
+            alpha = self.product("alpha.painted", alpha, Color::Texture(vertices));
+        }
         [color, alpha]
     }
 
@@ -248,19 +270,7 @@ impl Maker<'_, '_> {
             p.specular_color =
                 self.color(specular.specular_color_texture.as_ref(), color, Encoding::Auto, "specular-color");
         }
-        if let Some(anisotropy) = self.extension::<Anisotropy>("KHR_materials_anisotropy") {
-            let strength = bounded(anisotropy.anisotropy_strength, 0.0, 1.0);
-            // Across alpha stays, along it is alpha + (1 − alpha) strength².
-            let alpha = p.specular_roughness.number().map_or(0.25, |roughness| roughness * roughness);
-            let along = alpha + (1.0 - alpha) * strength * strength;
-            p.specular_roughness_anisotropy = (1.0 - alpha / along.max(1e-6)).into();
-            if p.specular_roughness.number().is_some() {
-                p.specular_roughness = along.sqrt().into();
-            }
-            if anisotropy.anisotropy_rotation != 0.0 || anisotropy.anisotropy_texture.is_some() {
-                self.warn("the direction of anisotropy is that of growing u everywhere");
-            }
-        }
+        self.anisotropy(p);
     }
 
     fn layers(&mut self, p: &mut Principled) {
@@ -269,9 +279,7 @@ impl Maker<'_, '_> {
             let (texture, factor) = (coat.clearcoat_roughness_texture.as_ref(), coat.clearcoat_roughness_factor);
             p.coat_roughness = self.channel(texture, Channel::Green, factor, "coat-roughness");
             (p.coat_ior, p.coat_darkening) = (1.5, 0.0);
-            if coat.clearcoat_normal_texture.is_some() {
-                self.warn("the clear coat has the normals of what is under it");
-            }
+            self.coat_normals(&coat, p);
         }
         if let Some(sheen) = self.extension::<Sheen>("KHR_materials_sheen") {
             let brightest = sheen.sheen_color_factor.into_iter().fold(0.0, f32::max);
@@ -340,18 +348,18 @@ impl Maker<'_, '_> {
         get(&self.material.extensions, name)
     }
 
-    fn warn(&mut self, message: &str) {
+    pub(super) fn warn(&mut self, message: &str) {
         self.warnings.push(Warning::new(message));
     }
 
     /// A texture of the material, by a name of its own.
-    fn texture(&mut self, part: &str, texture: TextureDesc) -> Name {
+    pub(super) fn texture(&mut self, part: &str, texture: TextureDesc) -> Name {
         let name = format!("{}.{part}", self.name);
         self.desc.texture.insert(name.clone(), texture);
         Name::new(&name)
     }
 
-    fn image(&mut self, info: &TextureInfo, encoding: Encoding, alpha: bool, part: &str) -> Option<Name> {
+    pub(super) fn image(&mut self, info: &TextureInfo, encoding: Encoding, alpha: bool, part: &str) -> Option<Name> {
         let Materials { document, pictures, file, .. } = *self.all;
         let mut image = pictures.texture(document, info, encoding, file, self.warnings)?;
         image.alpha = alpha;
@@ -388,7 +396,7 @@ impl Maker<'_, '_> {
     }
 
     /// A channel of a picture of data times a factor, in 0..1; the factor if there is no picture.
-    fn channel(&mut self, info: Option<&TextureInfo>, channel: Channel, factor: f32, part: &str) -> Scalar {
+    pub(super) fn channel(&mut self, info: Option<&TextureInfo>, channel: Channel, factor: f32, part: &str) -> Scalar {
         let factor = bounded(factor, 0.0, 1.0);
         let Some(image) = info.and_then(|info| self.image(info, Encoding::Linear, false, part)) else {
             return factor.into();
@@ -408,6 +416,6 @@ fn scalar(color: Color) -> Scalar {
 }
 
 /// In a range; what is no number is its lower end.
-fn bounded(number: f32, lo: f32, hi: f32) -> f32 {
+pub(super) fn bounded(number: f32, lo: f32, hi: f32) -> f32 {
     if number.is_nan() { lo } else { number.clamp(lo, hi) }
 }

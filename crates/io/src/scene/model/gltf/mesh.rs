@@ -28,9 +28,18 @@ pub(super) fn read(
     let mut vertices = attributes.floats::<3>("POSITION", 0.0)?.unwrap_or_default();
     let count = vertices.len();
     let mut normals = attributes.floats::<3>("NORMAL", 0.0)?.unwrap_or_default();
-    let uvs = attributes.floats::<2>("TEXCOORD_0", 0.0)?.unwrap_or_default();
-    let colors = attributes.floats::<3>("COLOR_0", 0.0)?.unwrap_or_default();
-    for (name, length) in [("NORMAL", normals.len()), ("TEXCOORD_0", uvs.len()), ("COLOR_0", colors.len())] {
+    let mut tangents = attributes.floats::<4>("TANGENT", 1.0)?.unwrap_or_default();
+    let uvs = |name: &str| attributes.floats::<2>(name, 0.0);
+    let [uvs, uvs_1] = [uvs("TEXCOORD_0")?.unwrap_or_default(), uvs("TEXCOORD_1")?.unwrap_or_default()];
+    let colors = attributes.floats::<4>("COLOR_0", 1.0)?.unwrap_or_default();
+    let lengths = [
+        ("NORMAL", normals.len()),
+        ("TANGENT", tangents.len()),
+        ("TEXCOORD_0", uvs.len()),
+        ("TEXCOORD_1", uvs_1.len()),
+        ("COLOR_0", colors.len()),
+    ];
+    for (name, length) in lengths {
         if length != 0 && length != count {
             return Err(FileError::new(format!("there are {length} {name} for {count} vertices")));
         }
@@ -38,20 +47,28 @@ pub(super) fn read(
     if normals.iter().flatten().any(|c| !c.is_finite()) {
         normals.clear();
     }
-    morph(buffers, &primitive.targets, weights, &mut vertices, &mut normals)?;
+    if normals.is_empty() || tangents.iter().flatten().any(|c| !c.is_finite()) {
+        tangents.clear();
+    }
+    let frames = Frames { vertices: &mut vertices, normals: &mut normals, tangents: &mut tangents };
+    morph(buffers, &primitive.targets, weights, frames)?;
     if let Some(joints) = joints {
-        skin(&attributes, joints, &mut vertices, &mut normals)?;
+        let frames = Frames { vertices: &mut vertices, normals: &mut normals, tangents: &mut tangents };
+        skin(&attributes, joints, frames)?;
     }
     let triangles = triangles(&attributes, mode, count)?;
     // Pictures of glTF hang from v = 0 down.
-    let uvs = uvs.into_iter().map(|[u, v]| [finite(u), finite(1.0 - v)]).collect();
-    let colors = colors.into_iter().map(|c| c.map(|c| finite(c).max(0.0))).collect();
-    Ok(Some(MeshData { vertices, triangles, normals, uvs, colors }))
+    let [uvs, uvs_1] = [uvs, uvs_1].map(|uvs| uvs.into_iter().map(|[u, v]| [finite(u), finite(1.0 - v)]).collect());
+    let alphas = colors.iter().map(|[.., alpha]| finite(*alpha).clamp(0.0, 1.0));
+    let alphas = if alphas.clone().any(|alpha| alpha < 1.0) { alphas.collect() } else { Vec::new() };
+    let colors = colors.into_iter().map(|[r, g, b, _]| [r, g, b].map(|c| finite(c).max(0.0))).collect();
+    Ok(Some(MeshData { vertices, triangles, normals, uvs, uvs_1, tangents, colors, alphas }))
 }
 
 /// Moves a mesh to where it stands. A transform that mirrors turns triangles round, so that their outsides stay outside.
 pub(super) fn place(mesh: &mut MeshData, to_world: &DAffine3) {
-    transform(to_world, &mut mesh.vertices, &mut mesh.normals);
+    let MeshData { vertices, normals, tangents, .. } = mesh;
+    transform(to_world, Frames { vertices, normals, tangents });
     if to_world.matrix3.determinant() < 0.0 {
         mesh.triangles.iter_mut().for_each(|t| t.swap(1, 2));
     }
@@ -90,27 +107,36 @@ fn morph(
     buffers: &Buffers<'_>,
     targets: &[BTreeMap<String, usize>],
     weights: &[f32],
-    vertices: &mut [[f32; 3]],
-    normals: &mut [[f32; 3]],
+    frames: Frames<'_>,
 ) -> Result<(), FileError> {
+    let Frames { vertices, normals, tangents } = frames;
     for (target, &weight) in targets.iter().zip(weights).filter(|(_, weight)| **weight != 0.0) {
+        let moves = |name: &str| target.get(name).map(|&i| buffers.floats::<3>(i, 0.0)).transpose();
         for (name, values) in [("POSITION", &mut *vertices), ("NORMAL", &mut *normals)] {
-            let Some(&index) = target.get(name) else { continue };
-            for (value, by) in values.iter_mut().zip(buffers.floats::<3>(index, 0.0)?) {
+            for (value, by) in values.iter_mut().zip(moves(name)?.unwrap_or_default()) {
                 value.iter_mut().zip(by).for_each(|(value, by)| *value += weight * by);
             }
+        }
+        for (value, by) in tangents.iter_mut().zip(moves("TANGENT")?.unwrap_or_default()) {
+            value.iter_mut().zip(by).for_each(|(value, by)| *value += weight * by);
         }
     }
     Ok(())
 }
 
-fn transform(to_world: &DAffine3, vertices: &mut [[f32; 3]], normals: &mut [[f32; 3]]) {
+fn transform(to_world: &DAffine3, Frames { vertices, normals, tangents }: Frames<'_>) {
     let of_normals = normal_matrix(to_world);
     for v in vertices {
         *v = to_world.transform_point3(double(*v)).as_vec3().into();
     }
     for n in normals {
         *n = (of_normals * double(*n)).normalize_or_zero().as_vec3().into();
+    }
+    // A mirror changes sides.
+    let side = if to_world.matrix3.determinant() < 0.0 { -1.0 } else { 1.0 };
+    for [x, y, z, w] in tangents {
+        [*x, *y, *z] = to_world.transform_vector3(double([*x, *y, *z])).normalize_or_zero().as_vec3().into();
+        *w *= side;
     }
 }
 
@@ -121,17 +147,30 @@ fn normal_matrix(to_world: &DAffine3) -> DMat3 {
     if m.determinant() < 0.0 { cofactors * -1.0 } else { cofactors }
 }
 
+/// Vertices, with normals and tangents if there are any.
+struct Frames<'a> {
+    vertices: &'a mut [[f32; 3]],
+    normals: &'a mut [[f32; 3]],
+    tangents: &'a mut [[f32; 4]],
+}
+
+impl Frames<'_> {
+    /// Those of one vertex.
+    fn one(&mut self, i: usize) -> Frames<'_> {
+        Frames {
+            vertices: self.vertices.get_mut(i..=i).unwrap_or_default(),
+            normals: self.normals.get_mut(i..=i).unwrap_or_default(),
+            tangents: self.tangents.get_mut(i..=i).unwrap_or_default(),
+        }
+    }
+}
+
 fn double(v: [f32; 3]) -> DVec3 {
     DVec3::from(v.map(f64::from))
 }
 
-fn skin(
-    attributes: &Attributes<'_>,
-    joints: &[DAffine3],
-    vertices: &mut [[f32; 3]],
-    normals: &mut [[f32; 3]],
-) -> Result<(), FileError> {
-    let mut sums = vec![(DAffine3::ZERO, 0.0); vertices.len()];
+fn skin(attributes: &Attributes<'_>, joints: &[DAffine3], mut frames: Frames<'_>) -> Result<(), FileError> {
+    let mut sums = vec![(DAffine3::ZERO, 0.0); frames.vertices.len()];
     for set in 0.. {
         let ids = attributes.numbers::<4>(&format!("JOINTS_{set}"))?;
         let weights = attributes.floats::<4>(&format!("WEIGHTS_{set}"), 0.0)?;
@@ -151,7 +190,7 @@ fn skin(
     for (i, (mut sum, total)) in sums.into_iter().enumerate().filter(|(_, (_, total))| *total > 0.0) {
         sum.matrix3 *= 1.0 / total;
         sum.translation /= total;
-        transform(&sum, vertices.get_mut(i..=i).unwrap_or_default(), normals.get_mut(i..=i).unwrap_or_default());
+        transform(&sum, frames.one(i));
     }
     Ok(())
 }

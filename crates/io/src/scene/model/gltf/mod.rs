@@ -7,6 +7,7 @@ mod animation;
 mod attribute;
 mod camera;
 mod container;
+mod directions;
 mod document;
 mod draco;
 mod extensions;
@@ -16,7 +17,10 @@ mod mesh;
 mod meshopt;
 mod node;
 mod shapes;
+mod surroundings;
+mod tangents;
 mod texture;
+mod variants;
 
 use std::path::Path;
 
@@ -50,6 +54,9 @@ fn read_bytes(name: &str, bytes: &[u8], folder: &Path, options: &ReadOptions<'_>
     extensions::check(&document, &mut model.warnings)?;
     let bytes = Bytes::new(&document, load(&document, bytes, folder)?)?;
     pose(&mut document, &bytes, options, &mut model.warnings)?;
+    if let Some(variant) = options.variant {
+        variants::choose(&mut document, variant)?;
+    }
     let buffers = Buffers { document: &document, bytes: &bytes };
     let pictures = Pictures::read(&buffers, folder, &mut model.warnings);
     let mut materials = Materials::new(&document, &pictures, name);
@@ -59,6 +66,7 @@ fn read_bytes(name: &str, bytes: &[u8], folder: &Path, options: &ReadOptions<'_>
         camera::read(&document, node, &to_world, &mut model)?;
         light::read(&document, node, &to_world, &mut model)?;
     }
+    surroundings::read(&buffers, folder, &mut model)?;
     shapes::read(&buffers, &placed, &mut materials, &mut model)?;
     model.warnings.dedup();
     Ok(model)

@@ -10,8 +10,8 @@ use crate::error::FileError;
 use crate::scene::model::Model;
 use crate::scene::model::gltf::accessor::{Buffers, missing};
 use crate::scene::model::gltf::document::{Material, Mesh};
-use crate::scene::model::gltf::material::{self, Materials};
-use crate::scene::model::gltf::{mesh, node};
+use crate::scene::model::gltf::material::{self, Materials, Painted};
+use crate::scene::model::gltf::{mesh, node, tangents};
 use crate::warning::Warning;
 
 /// Triangles of all meshes.
@@ -45,14 +45,22 @@ pub(super) fn read(
     let (mut triangles, mut skipped) = (0, 0);
     for (group, primitive) in groups.iter().flat_map(|group| group.mesh.primitives.iter().map(move |p| (group, p))) {
         let joints = group.joints.as_deref().filter(|_| primitive.attributes.contains_key("JOINTS_0"));
-        let Some(data) = mesh::read(buffers, primitive, group.weights, joints)? else {
+        let Some(mut data) = mesh::read(buffers, primitive, group.weights, joints)? else {
             skipped += 1;
             continue;
         };
-        let has_colors = !data.colors.is_empty();
-        let mut material = materials.name(primitive.material, has_colors, &mut model.desc, &mut model.warnings);
         let default = Material::default();
         let said = primitive.material.and_then(|index| buffers.document.materials.get(index)).unwrap_or(&default);
+        if !said.uses_alpha() {
+            data.alphas.clear();
+        }
+        match materials.directions(primitive.material) {
+            None => data.tangents.clear(),
+            Some(mapping) if data.tangents.is_empty() => tangents::make(&mut data, &mapping),
+            Some(_) => {}
+        }
+        let painted = Painted { colors: !data.colors.is_empty(), alphas: !data.alphas.is_empty() };
+        let mut material = materials.name(primitive.material, painted, &mut model.desc, &mut model.warnings);
         if said.is_one_sided() && !is_closed(&data) {
             material = material::front(&mut model.desc, &material);
         }

@@ -1,14 +1,14 @@
 //! Pictures of a glTF file, and how materials look them up.
 //!
-//! `KHR_texture_transform` turns, scales and moves coordinates that hang down from v = 0; ours stand upright, so the same is said in
-//! other numbers. A turn after uneven scales cannot be said in them, and is reported.
+//! `KHR_texture_transform` scales, turns and moves coordinates that hang down from v = 0; ours stand upright, so the same is said in
+//! other numbers.
 
 use std::collections::BTreeMap;
 use std::path::Path;
 use std::sync::Arc;
 
 use eyebeam_core::film::Wrap;
-use eyebeam_core::texture::{Encoding, Filter, ImageTexture, Mapping, Pixels};
+use eyebeam_core::texture::{Encoding, Filter, ImageTexture, Mapping, Pixels, Space};
 use rayon::prelude::*;
 
 use crate::error::FileError;
@@ -89,18 +89,12 @@ impl Pictures {
         if sampler.and_then(|s| s.mag_filter) == Some(NEAREST) {
             image.filter = Filter::Nearest;
         }
-        if let Some(transform) = &info.extensions.transform {
-            image.mapping = mapping(transform).unwrap_or_else(|| {
-                warnings.push(Warning::new(format!(
-                    "texture {} is turned after uneven scales: it is only moved",
-                    info.index
-                )));
-                Mapping::default()
-            });
-        }
-        if info.extensions.transform.as_ref().and_then(|t| t.tex_coord).unwrap_or(info.tex_coord) != 0 {
-            warnings
-                .push(Warning::new(format!("texture {} lies as TEXCOORD_0 says, not as another set does", info.index)));
+        image.mapping = mapping(info);
+        let set = set(info);
+        if set > 1 {
+            let message = format!("texture {} lies as TEXCOORD_0 says, not as TEXCOORD_{set} does", info.index);
+            let hint = Some("two sets of coordinates are read".to_owned());
+            warnings.push(Warning { hint, ..Warning::new(message) });
         }
         Some(image)
     }
@@ -116,23 +110,28 @@ fn wrap(code: Option<u32>) -> Wrap {
     }
 }
 
-/// The same in coordinates that stand upright; none if they cannot say it.
-fn mapping(transform: &TextureTransform) -> Option<Mapping> {
-    let TextureTransform { offset: [x, y], rotation, .. } = *transform;
-    let [u, v] = transform.scale.unwrap_or([1.0; 2]);
-    if rotation != 0.0 && u != v {
-        return None;
-    }
-    let (sin, cos) = (libm::sinf(rotation), libm::cosf(rotation));
-    Some(Mapping {
-        rotation: rotation.to_degrees(),
-        scale: [u, v, 1.0],
-        offset: [x + v * sin, 1.0 - y - v * cos, 0.0],
-        ..Mapping::default()
-    })
+/// The coordinates by which a texture lies.
+fn set(info: &TextureInfo) -> usize {
+    info.extensions.transform.as_ref().and_then(|t| t.tex_coord).unwrap_or(info.tex_coord)
 }
 
-fn bytes(buffers: &Buffers<'_>, folder: &Path, index: usize) -> Result<Vec<u8>, FileError> {
+/// How a texture lies, in coordinates that stand upright.
+pub(super) fn mapping(info: &TextureInfo) -> Mapping {
+    let space = (set(info) == 1).then_some(Space::Uv1);
+    let Some(transform) = &info.extensions.transform else { return Mapping { space, ..Mapping::default() } };
+    let TextureTransform { offset: [x, y], rotation, .. } = *transform;
+    let [u, v] = transform.scale.unwrap_or([1.0; 2]);
+    let (sin, cos) = (libm::sinf(rotation), libm::cosf(rotation));
+    Mapping {
+        space,
+        scale: [u, v, 1.0],
+        rotation_after: rotation.to_degrees() % 360.0,
+        offset: [x + v * sin, 1.0 - y - v * cos, 0.0],
+        ..Mapping::default()
+    }
+}
+
+pub(super) fn bytes(buffers: &Buffers<'_>, folder: &Path, index: usize) -> Result<Vec<u8>, FileError> {
     let picture = buffers.document.images.get(index).ok_or_else(|| missing("picture", index))?;
     match (&picture.uri, picture.buffer_view) {
         (Some(uri), _) => container::resolve(uri, folder),
@@ -143,23 +142,30 @@ fn bytes(buffers: &Buffers<'_>, folder: &Path, index: usize) -> Result<Vec<u8>, 
 
 #[cfg(test)]
 mod tests {
-    use super::*;
+    use glam::Vec3;
 
-    /// u' = x + cos u + sin v, v' = y − sin u + cos v times the scale, from above.
+    use super::*;
+    use crate::scene::model::gltf::document::TextureInfoExtensions;
+
+    /// u' = x + cos u + sin v, v' = y − sin u + cos v with u and v times their scales, from above.
     #[test]
     fn transforms_are_the_same_upright() {
-        let transform =
-            TextureTransform { offset: [0.2, 0.1], rotation: 0.5, scale: Some([2.0, 2.0]), tex_coord: None };
-        let Mapping { rotation, scale, offset, .. } = mapping(&transform).unwrap();
-        let (sin, cos) = rotation.to_radians().sin_cos();
-        for [u, v] in [[0.0, 0.0], [1.0, 0.0], [0.3, 0.8]] {
-            let (s, c) = 0.5_f32.sin_cos();
-            let expected = [0.2 + 2.0 * (c * u + s * v), 0.1 + 2.0 * (c * v - s * u)];
-            let up = 1.0 - v;
-            let turned = [cos * u - sin * up, sin * u + cos * up];
-            let place = [turned[0] * scale[0] + offset[0], turned[1] * scale[1] + offset[1]];
-            assert!((place[0] - expected[0]).abs() < 1e-5 && (1.0 - place[1] - expected[1]).abs() < 1e-5);
+        for scale in [[2.0, 2.0], [2.0, -0.5]] {
+            let transform =
+                TextureTransform { offset: [0.2, 0.1], rotation: 0.5, scale: Some(scale), tex_coord: Some(1) };
+            let info = TextureInfo {
+                extensions: TextureInfoExtensions { transform: Some(transform) },
+                ..TextureInfo::default()
+            };
+            let mapping = mapping(&info);
+            assert_eq!(mapping.space, Some(Space::Uv1));
+            for [u, v] in [[0.0, 0.0], [1.0, 0.0], [0.3, 0.8]] {
+                let (s, c) = 0.5_f32.sin_cos();
+                let (su, sv) = (scale[0] * u, scale[1] * v);
+                let expected = [0.2 + c * su + s * sv, 0.1 + c * sv - s * su];
+                let place = mapping.lay(Vec3::new(u, 1.0 - v, 0.0));
+                assert!((place.x - expected[0]).abs() < 1e-5 && (1.0 - place.y - expected[1]).abs() < 1e-5);
+            }
         }
-        assert!(mapping(&TextureTransform { scale: Some([1.0, 2.0]), ..transform }).is_none());
     }
 }

@@ -1,0 +1,61 @@
+//! `KHR_materials_variants`: other materials for the same meshes, of which one set is chosen.
+
+use serde::Deserialize;
+
+use crate::error::FileError;
+use crate::scene::model::gltf::document::{Document, Primitive};
+use crate::scene::model::gltf::extensions::get;
+
+const NAME: &str = "KHR_materials_variants";
+
+#[derive(Debug, Default, Deserialize)]
+#[serde(default)]
+struct Variants {
+    variants: Vec<Variant>,
+}
+
+#[derive(Debug, Default, Deserialize)]
+#[serde(default)]
+struct Variant {
+    name: String,
+}
+
+#[derive(Debug, Default, Deserialize)]
+#[serde(default)]
+struct Mappings {
+    mappings: Vec<Mapping>,
+}
+
+#[derive(Debug, Default, Deserialize)]
+#[serde(default)]
+struct Mapping {
+    material: Option<usize>,
+    variants: Vec<usize>,
+}
+
+/// Gives meshes the materials of a variant, by its name or its number.
+///
+/// # Errors
+/// If there is none; they are listed.
+pub(super) fn choose(document: &mut Document, wanted: &str) -> Result<(), FileError> {
+    let Variants { variants } = get(&document.extensions, NAME).unwrap_or_default();
+    let by_name = variants.iter().position(|variant| variant.name == wanted);
+    let by_number = wanted.parse().ok().filter(|&i: &usize| i < variants.len());
+    let Some(chosen) = by_name.or(by_number) else {
+        let names: Vec<_> = variants.iter().enumerate().map(|(i, v)| format!("{i} `{}`", v.name)).collect();
+        let hint = if names.is_empty() { "it has none".to_owned() } else { format!("it has {}", names.join(", ")) };
+        return Err(FileError::new(format!("there is no variant `{wanted}`")).hint(hint));
+    };
+    for primitive in document.meshes.iter_mut().flat_map(|mesh| &mut mesh.primitives) {
+        if let Some(material) = material(primitive, chosen) {
+            primitive.material = Some(material);
+        }
+    }
+    Ok(())
+}
+
+/// The material of a variant, if that has one of its own.
+fn material(primitive: &Primitive, variant: usize) -> Option<usize> {
+    let Mappings { mappings } = get(&primitive.extensions, NAME)?;
+    mappings.into_iter().find(|mapping| mapping.variants.contains(&variant))?.material
+}
