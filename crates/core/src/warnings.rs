@@ -61,18 +61,23 @@ impl SceneDesc {
     }
 
     fn warn_of_darkness(&self, c: &mut Checker) {
-        let shines = |name: Option<&str>| self.lamp(name.unwrap_or(Self::DEFAULT_MATERIAL)) == Some(true);
-        let meshes = self.shape.mesh.iter();
-        let is_lit = !self.environment.is_dark()
-            || !self.light.is_dark()
-            || self.shape.sphere.iter().any(|s| shines(s.material.as_deref()))
-            || self.shape.quad.iter().any(|q| shines(q.material.as_deref()))
-            || meshes.clone().any(|m| shines(m.material.as_deref()) && m.degenerate_count() < m.triangle_count());
-        if !is_lit {
+        if self.environment.is_dark() && self.light.is_dark() && !self.has_lamps() {
             let hint =
                 "add [environment.constant], a light as in [[light.point]], or a shape of an `emissive` material";
             c.problem("environment", "nothing shines: the picture will be black", Some(hint.to_owned()));
         }
+    }
+
+    /// Whether a surface gives light.
+    pub(crate) fn has_lamps(&self) -> bool {
+        let shines = |name: Option<&str>| self.lamp(name.unwrap_or(Self::DEFAULT_MATERIAL)) == Some(true);
+        self.shape.sphere.iter().any(|s| shines(s.material.as_deref()))
+            || self.shape.quad.iter().any(|q| shines(q.material.as_deref()))
+            || self
+                .shape
+                .mesh
+                .iter()
+                .any(|m| shines(m.material.as_deref()) && m.degenerate_count() < m.triangle_count())
     }
 
     fn warn_of_meshes(&self, c: &mut Checker) {
@@ -134,7 +139,7 @@ impl LightsDesc {
             .chain(projectors.map(named("projector")))
     }
 
-    fn is_dark(&self) -> bool {
+    pub(crate) fn is_dark(&self) -> bool {
         self.each().all(|(_, _, is_dark, _)| is_dark)
     }
 

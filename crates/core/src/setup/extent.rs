@@ -2,7 +2,7 @@
 
 use std::array;
 
-use glam::Vec3;
+use glam::{Affine3A, Vec3};
 
 use crate::desc::SceneDesc;
 use crate::shape::MeshDesc;
@@ -45,6 +45,11 @@ impl Extent {
         0.5 * self.min + 0.5 * self.max
     }
 
+    /// How far one of the six sides is along the direction outwards: −x, x, −y and so on.
+    pub(super) fn side(&self, side: usize) -> f32 {
+        if side % 2 == 0 { -self.min[side / 2] } else { self.max[side / 2] }
+    }
+
     /// From corner to corner, metres.
     pub(super) fn size(&self) -> f32 {
         (self.max - self.min).length()
@@ -79,9 +84,32 @@ pub(super) fn points(desc: &SceneDesc) -> Vec<Vec3> {
     points
 }
 
+/// The corners of all triangles and of the halves of quads, counter-clockwise seen from where their normals point.
+pub(super) fn faces(desc: &SceneDesc) -> impl Iterator<Item = [Vec3; 3]> {
+    let of_mesh = |mesh: &'_ MeshDesc| -> Vec<Affine3A> {
+        if mesh.instances.is_empty() { vec![Affine3A::IDENTITY] } else { mesh.copies().collect() }
+    };
+    let meshes = desc.shape.mesh.iter().flat_map(move |mesh| {
+        let copies = of_mesh(mesh);
+        copies.into_iter().flat_map(move |copy| {
+            let is_mirrored = copy.matrix3.determinant() < 0.0;
+            let placed = move |corners: [Vec3; 3]| {
+                let [a, b, c] = corners.map(|corner| copy.transform_point3(corner));
+                if is_mirrored { [a, c, b] } else { [a, b, c] }
+            };
+            mesh.faces().map(placed)
+        })
+    });
+    let quads = desc.shape.quad.iter().flat_map(|quad| {
+        let [corner, u, v] = [quad.corner, quad.u, quad.v].map(Vec3::from);
+        [[corner, corner + u, corner + v], [corner + u + v, corner + v, corner + u]]
+    });
+    meshes.chain(quads)
+}
+
 /// Those of a mesh, or of its copies; if these have many, of the boxes around them.
 fn push_mesh(points: &mut Vec<Vec3>, mesh: &MeshDesc) {
-    const MANY: usize = 1 << 24;
+    const MANY: usize = 1 << 20;
     let mut vertices: Vec<_> = mesh.vertices().iter().map(|&v| Vec3::from(v)).collect();
     if mesh.instances.is_empty() {
         points.append(&mut vertices);
@@ -113,7 +141,7 @@ mod tests {
         desc.shape.mesh.push(MeshDesc { vertices, instances: vec![place(-1.0), place(5.0)], ..MeshDesc::default() });
         let expected = Extent { min: Vec3::new(-1.0, 0.0, 0.0), max: Vec3::new(7.0, 3.0, 4.0) };
         assert_eq!(Extent::of(&points(&desc)), Some(expected));
-        desc.shape.mesh[0].instances.resize(1 << 23, place(5.0));
+        desc.shape.mesh[0].instances.resize(1 << 19, place(5.0));
         assert_eq!(Extent::of(&points(&desc)), Some(expected));
     }
 

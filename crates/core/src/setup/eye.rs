@@ -16,9 +16,13 @@ const VFOV: f32 = 28.0;
 const FILL: f32 = 0.74;
 
 /// A camera in front of what there is, for pictures so many times as wide as high.
-pub(super) fn in_front(points: &[Vec3], extent: &Extent, aspect: f32) -> CameraDesc {
-    let center = extent.center();
-    let back = direction(extent);
+pub(super) fn in_front(points: &[Vec3], faces: &[[Vec3; 3]], extent: &Extent, aspect: f32) -> CameraDesc {
+    from_side(points, extent, aspect, direction(faces, extent))
+}
+
+/// A camera that sees what there is from a direction, and that fills the picture.
+pub(super) fn from_side(points: &[Vec3], extent: &Extent, aspect: f32, back: Vec3) -> CameraDesc {
+    let (center, back) = (extent.center(), back.normalize());
     let right = Vec3::Y.cross(back).normalize();
     let up = back.cross(right);
     let (sin, cos) = sin_cos_turns(VFOV / 720.0);
@@ -45,8 +49,8 @@ pub(super) fn in_front(points: &[Vec3], extent: &Extent, aspect: f32) -> CameraD
     }
 }
 
-/// From what there is to the eye: of flat things more from where they are wide.
-fn direction(extent: &Extent) -> Vec3 {
+/// From what there is to the eye: of flat things more from where they are wide, and from where they face to.
+fn direction(faces: &[[Vec3; 3]], extent: &Extent) -> Vec3 {
     /// Thinner than this part of its width a thing is flat.
     const FLAT: f32 = 0.02;
     let size = extent.max - extent.min;
@@ -56,6 +60,14 @@ fn direction(extent: &Extent) -> Vec3 {
         [true, false, false] => [75.0, 10.0],
         [false, false, true] => [15.0, 8.0],
         _ => [32.0, 16.0],
+    };
+    let facing: Vec3 = faces.iter().map(|[a, b, c]| (b - a).cross(c - a)).sum();
+    let is_behind = is_flat(0) && facing.x < 0.0 || is_flat(2) && facing.z < 0.0;
+    // Through the plane of a flat thing, to the other side.
+    let azimuth = match (is_behind, is_flat(0)) {
+        (false, _) => azimuth,
+        (true, true) => -azimuth,
+        (true, false) => 180.0 - azimuth,
     };
     let ((sin_a, cos_a), (sin_e, cos_e)) = (sin_cos_turns(azimuth / 360.0), sin_cos_turns(elevation / 360.0));
     Vec3::new(sin_a * cos_e, sin_e, cos_a * cos_e)
@@ -73,7 +85,7 @@ mod tests {
     /// The box of everything in the picture, from −1 to 1 each way.
     fn framed(desc: &SceneDesc, aspect: f32) -> [Vec2; 2] {
         let points = points(desc);
-        let camera = in_front(&points, &Extent::of(&points).unwrap(), aspect);
+        let camera = in_front(&points, &[], &Extent::of(&points).unwrap(), aspect);
         let [from, at] = [camera.look_from, camera.look_at].map(|p| Vec3::from(p).as_dvec3());
         let back = (from - at).normalize();
         let right = glam::DVec3::Y.cross(back).normalize();

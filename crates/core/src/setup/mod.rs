@@ -1,10 +1,13 @@
 //! What a model lacks to make a picture: where the eye is, and light.
 //!
 //! The eye looks at the middle of what there is from the front, a little from the right and from above, from so far that it
-//! nearly fills the picture. A model without light stands on a ground that fades into the light of a studio.
+//! nearly fills the picture; of rooms it sees the inside. A model without light stands on a ground that fades into the light of a
+//! studio. Lamps light a room; else they are a part of what is shown in the studio.
 
 mod extent;
 mod eye;
+mod lamp;
+mod room;
 mod studio;
 
 use crate::desc::SceneDesc;
@@ -12,13 +15,14 @@ use crate::light::sky::SkyDesc;
 use crate::light::{EnvironmentDesc, ImageEnvironment};
 
 use extent::Extent;
+use room::Room;
 
-/// What a file says.
+/// What a file says, besides what there is to see.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct Given {
     /// Where the eye is.
     pub camera: bool,
-    /// Light, from wherever.
+    /// Light from outside.
     pub light: bool,
 }
 
@@ -69,13 +73,25 @@ impl Setup {
         let mut assumed = Assumed::default();
         let points = extent::points(desc);
         let Some(extent) = Extent::of(&points) else { return assumed };
+        let faces: Vec<_> = extent::faces(desc).collect();
+        let room = Room::find(faces.iter().copied(), &extent);
         if self.own_camera || !given.camera {
             let aspect = desc.render.width as f32 / desc.render.height.max(1) as f32;
-            desc.camera = eye::in_front(&points, &extent, aspect);
-            assumed.what.push("a camera in front");
+            let (camera, what) = match &room {
+                Some(room) => (room.eye(&points, &faces, &extent, aspect), "a camera in the room"),
+                None => (eye::in_front(&points, &faces, &extent, aspect), "a camera in front"),
+            };
+            desc.camera = camera;
+            assumed.what.push(what);
         }
+        let is_lit = given.light || room.is_some() && (desc.has_lamps() || !desc.light.is_dark());
         let surroundings = match &self.surroundings {
-            Surroundings::Auto if given.light => &Surroundings::None,
+            Surroundings::Auto if is_lit => &Surroundings::None,
+            Surroundings::Auto if room.is_some_and(|room| room.is_closed()) => {
+                lamp::add(desc, &extent);
+                assumed.what.push("a lamp");
+                &Surroundings::None
+            }
             Surroundings::Auto => &Surroundings::Studio,
             said => said,
         };
@@ -92,10 +108,20 @@ impl Setup {
             }
             Surroundings::Image(image) => desc.environment = EnvironmentDesc::Image(image.clone()),
         }
-        if self.ground.unwrap_or(matches!(surroundings, Surroundings::Studio | Surroundings::Sky)) {
+        let stands = room.is_none() && matches!(surroundings, Surroundings::Studio | Surroundings::Sky);
+        if self.ground.unwrap_or(stands) {
             studio::add_ground(desc, &extent);
             assumed.what.push("a ground");
         }
         assumed
     }
+}
+
+/// A name that no material and no texture has.
+fn unused(desc: &SceneDesc, name: &str) -> String {
+    let mut unused = name.to_owned();
+    while desc.material.contains_key(&unused) || desc.texture.contains_key(&unused) {
+        unused.push('\'');
+    }
+    unused
 }

@@ -15,6 +15,7 @@ use crate::light::{EnvironmentDesc, ImageEnvironment};
 use crate::material::{Mask, MaterialDesc, Principled};
 use crate::names::Name;
 use crate::setup::extent::Extent;
+use crate::setup::unused;
 use crate::shape::QuadDesc;
 use crate::texture::{Color, Gradient, Interpolation, Mapping, Ramp, Scalar, Space, Stop, TextureDesc};
 
@@ -31,21 +32,21 @@ struct Softbox {
 }
 
 const SOFTBOXES: [Softbox; 3] = [
-    Softbox { at: [-55.0, 48.0], half: [34.0, 24.0], radiance: 6.0 },
-    Softbox { at: [70.0, 22.0], half: [22.0, 30.0], radiance: 1.6 },
+    Softbox { at: [-55.0, 48.0], half: [34.0, 24.0], radiance: 7.0 },
+    Softbox { at: [70.0, 22.0], half: [22.0, 30.0], radiance: 1.1 },
     Softbox { at: [165.0, 58.0], half: [40.0, 12.0], radiance: 5.0 },
 ];
 
 /// On all of it, so that white paper is a little darker than the picture's white.
 const SCALE: f32 = 0.4;
 
-/// Share of the light that the ground scatters.
-const GROUND: f32 = 0.4;
+/// Share of the light that the ground scatters, under the model and far from it.
+const GROUND: [f32; 2] = [0.45, 0.2];
 
 /// Radiance without softboxes, by the height of the direction as its sine.
 fn backdrop(height: f32, ground: f32) -> f32 {
     /// From straight above.
-    const ABOVE: f32 = 0.5;
+    const ABOVE: f32 = 0.4;
     // Below the horizon it is the ground, above it brightens slowly.
     ground + (ABOVE - ground) * height.clamp(0.0, 1.0)
 }
@@ -66,7 +67,7 @@ pub(super) fn environment(look_from: [f32; 3], look_at: [f32; 3]) -> Environment
     // The horizon is as bright as the ground, which the horizon lights.
     let mut ground = 0.5;
     for _ in 0..4 {
-        ground = GROUND * irradiance(&boxes, ground) / PI;
+        ground = GROUND[1] * irradiance(&boxes, ground) / PI;
     }
     let mut image = Image::new(WIDTH, WIDTH / 2);
     for (pixel, (softbox, height)) in image.pixels_mut().iter_mut().zip(boxes) {
@@ -111,26 +112,33 @@ fn irradiance(boxes: &[(f32, f32)], ground: f32) -> f32 {
     boxes.iter().map(of).sum()
 }
 
-/// A round ground under what there is, that fades out where nothing is near.
+/// A round ground under what there is: brightest there, and fading out where nothing is near.
 pub(super) fn add_ground(desc: &mut SceneDesc, extent: &Extent) {
     /// Half its width, and where it begins to fade, in sizes of what stands on it.
     const HALF: f32 = 6.0;
-    const FADES: f32 = 0.8;
+    const FADES: f32 = 2.0;
+    /// Where it begins to darken, and where it is dark.
+    const DARKENS: [f32; 2] = [0.6, 2.8];
     let size = extent.size().max(1e-6);
     let center = extent.center();
     let y = extent.min.y - 1e-4 * size;
     let half = HALF * size;
-    let [name, surface, distance] = ["ground", "ground.surface", "ground.distance"].map(|name| unused(desc, name));
+    let names = ["ground", "ground.surface", "ground.distance", "ground.color"];
+    let [name, surface, distance, color] = names.map(|name| unused(desc, name));
     // On the quad, so that it is the same for all units.
     let mapping =
         Mapping { space: Some(Space::Uv), scale: [2.0, 2.0, 0.0], offset: [-1.0, -1.0, 0.0], ..Mapping::default() };
     let radial = Gradient { radial: true, mapping, ..Gradient::default() };
     desc.texture.insert(distance.clone(), TextureDesc::Gradient(radial));
-    let stops = [(FADES / HALF, 1.0), (1.0, 0.0)].map(|(at, grey)| Stop { at, color: Rgb::grey(grey) }).into();
-    let input = Scalar::Texture(Name::new(&distance));
-    desc.texture.insert(name.clone(), TextureDesc::Ramp(Ramp { input, stops, interpolation: Interpolation::Smooth }));
+    let ramp = |stops: [(f32, f32); 2]| {
+        let stops = stops.map(|(at, grey)| Stop { at: at / HALF, color: Rgb::grey(grey) }).into();
+        let input = Scalar::Texture(Name::new(&distance));
+        TextureDesc::Ramp(Ramp { input, stops, interpolation: Interpolation::Smooth })
+    };
+    desc.texture.insert(name.clone(), ramp([(FADES, 1.0), (HALF, 0.0)]));
+    desc.texture.insert(color.clone(), ramp([(DARKENS[0], GROUND[0]), (DARKENS[1], GROUND[1])]));
     let matte = Principled {
-        base_color: Color::Rgb(Rgb::grey(GROUND)),
+        base_color: Color::Texture(Name::new(&color)),
         specular_roughness: 0.4.into(),
         specular_weight: 0.5.into(),
         ..Principled::default()
@@ -145,13 +153,4 @@ pub(super) fn add_ground(desc: &mut SceneDesc, extent: &Extent) {
         material: Some(name),
         ..QuadDesc::default()
     });
-}
-
-/// A name that no material and no texture has.
-fn unused(desc: &SceneDesc, name: &str) -> String {
-    let mut unused = name.to_owned();
-    while desc.material.contains_key(&unused) || desc.texture.contains_key(&unused) {
-        unused.push('\'');
-    }
-    unused
 }

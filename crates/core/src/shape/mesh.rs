@@ -225,6 +225,11 @@ impl MeshDesc {
         self.mesh().vertices
     }
 
+    /// The corners of its triangles, once the file is loaded.
+    pub(crate) fn faces(&self) -> impl Iterator<Item = [Vec3; 3]> {
+        self.mesh().corners()
+    }
+
     /// From where the vertices are to where its copies are.
     pub fn copies(&self) -> impl Iterator<Item = Affine3A> {
         let affine = |rows: &[f32; 12]| {

@@ -6,7 +6,7 @@ use eyebeam_core::texture::{Pixels, Samples};
 
 use crate::error::{Error, FileError};
 use crate::file;
-use crate::image::read::{Format, exr, hdr, repair_image, signals};
+use crate::image::read::{Format, exr, hdr, ktx2, repair_image, signals};
 use crate::warning::Warning;
 
 /// Reads a picture as it is in the file, but for alpha that is 1 everywhere and colours that are all grey, and says what could
@@ -36,6 +36,8 @@ pub fn pixels_size(name: &str, bytes: &[u8]) -> Result<u64, Error> {
         Ok(Format::Hdr) => hdr::size(bytes),
         Ok(Format::Png) => signals::png_size(bytes),
         Ok(Format::Jpeg) => signals::jpeg_size(bytes),
+        Ok(Format::WebP) => signals::webp_size(bytes),
+        Ok(Format::Ktx2) => ktx2::size(bytes),
         Err(error) => Err(error),
     };
     size.map_err(|e| e.of(name))
@@ -52,6 +54,8 @@ fn decode(bytes: &[u8]) -> Result<(Pixels, Vec<Warning>), FileError> {
         }
         Format::Png => Ok((signals::decode_png(bytes, 0)?, Vec::new())),
         Format::Jpeg => Ok((signals::decode_jpeg(bytes, 0)?, Vec::new())),
+        Format::WebP => Ok((signals::decode_webp(bytes, 0)?, Vec::new())),
+        Format::Ktx2 => Ok((ktx2::decode(bytes, 0)?, Vec::new())),
     }
 }
 

@@ -1,5 +1,6 @@
 //! Models: what other programs write.
 
+mod draco;
 mod gltf;
 mod gltf_materials;
 mod obj;

@@ -9,6 +9,7 @@ use glam::{DAffine3, DMat3, DVec3};
 
 use crate::error::FileError;
 use crate::scene::model::gltf::accessor::Buffers;
+use crate::scene::model::gltf::attribute::{Attributes, Indices};
 use crate::scene::model::gltf::document::Primitive;
 
 /// A mesh with so much of each morph target, posed by its joints if there are any: where each has moved since the skin was bound. None for
@@ -19,24 +20,18 @@ pub(super) fn read(
     weights: &[f32],
     joints: Option<&[DAffine3]>,
 ) -> Result<Option<MeshData>, FileError> {
-    const DRACO: &str = "KHR_draco_mesh_compression";
-    let Some(&position) = primitive.attributes.get("POSITION") else { return Ok(None) };
-    if primitive.extensions.contains_key(DRACO) && buffers.is_empty(position) {
-        let hint = "export the model without mesh compression";
-        return Err(FileError::new(format!("a mesh needs the extension {DRACO}, which is not read")).hint(hint));
-    }
     let mode = primitive.mode.unwrap_or(4);
-    if mode < 4 {
+    if mode < 4 || !primitive.attributes.contains_key("POSITION") {
         return Ok(None);
     }
-    let mut vertices = buffers.floats::<3>(position, 0.0)?;
+    let attributes = Attributes::new(buffers, primitive)?;
+    let mut vertices = attributes.floats::<3>("POSITION", 0.0)?.unwrap_or_default();
     let count = vertices.len();
-    let optional = |name: &str| primitive.attributes.get(name).copied();
-    let mut normals = optional("NORMAL").map(|i| buffers.floats::<3>(i, 0.0)).transpose()?.unwrap_or_default();
-    let mut tangents = optional("TANGENT").map(|i| buffers.floats::<4>(i, 1.0)).transpose()?.unwrap_or_default();
-    let uvs = |name: &str| optional(name).map(|i| buffers.floats::<2>(i, 0.0)).transpose();
+    let mut normals = attributes.floats::<3>("NORMAL", 0.0)?.unwrap_or_default();
+    let mut tangents = attributes.floats::<4>("TANGENT", 1.0)?.unwrap_or_default();
+    let uvs = |name: &str| attributes.floats::<2>(name, 0.0);
     let [uvs, uvs_1] = [uvs("TEXCOORD_0")?.unwrap_or_default(), uvs("TEXCOORD_1")?.unwrap_or_default()];
-    let colors = optional("COLOR_0").map(|i| buffers.floats::<4>(i, 1.0)).transpose()?.unwrap_or_default();
+    let colors = attributes.floats::<4>("COLOR_0", 1.0)?.unwrap_or_default();
     let lengths = [
         ("NORMAL", normals.len()),
         ("TANGENT", tangents.len()),
@@ -59,9 +54,9 @@ pub(super) fn read(
     morph(buffers, &primitive.targets, weights, frames)?;
     if let Some(joints) = joints {
         let frames = Frames { vertices: &mut vertices, normals: &mut normals, tangents: &mut tangents };
-        skin(buffers, &primitive.attributes, joints, frames)?;
+        skin(&attributes, joints, frames)?;
     }
-    let triangles = triangles(buffers, primitive.indices, mode, count)?;
+    let triangles = triangles(&attributes, mode, count)?;
     // Pictures of glTF hang from v = 0 down.
     let [uvs, uvs_1] = [uvs, uvs_1].map(|uvs| uvs.into_iter().map(|[u, v]| [finite(u), finite(1.0 - v)]).collect());
     let alphas = colors.iter().map(|[.., alpha]| finite(*alpha).clamp(0.0, 1.0));
@@ -83,18 +78,8 @@ fn finite(number: f32) -> f32 {
     if number.is_finite() { number } else { 0.0 }
 }
 
-fn triangles(
-    buffers: &Buffers<'_>,
-    indices: Option<usize>,
-    mode: u32,
-    count: usize,
-) -> Result<Vec<[u32; 3]>, FileError> {
-    let indices: Vec<u32> = match indices {
-        Some(index) => buffers.numbers::<1>(index)?.into_iter().map(|[i]| i).collect(),
-        None => {
-            (0..u32::try_from(count).map_err(|_| FileError::new(format!("{count} vertices are too many")))?).collect()
-        }
-    };
+fn triangles(attributes: &Attributes<'_>, mode: u32, count: usize) -> Result<Vec<[u32; 3]>, FileError> {
+    let Indices { indices, mode } = attributes.indices(mode, count)?;
     if let Some(bad) = indices.iter().find(|&&i| i as usize >= count) {
         return Err(FileError::new(format!("a triangle names vertex {bad} of {count}")));
     }
@@ -184,17 +169,13 @@ fn double(v: [f32; 3]) -> DVec3 {
     DVec3::from(v.map(f64::from))
 }
 
-fn skin(
-    buffers: &Buffers<'_>,
-    attributes: &BTreeMap<String, usize>,
-    joints: &[DAffine3],
-    mut frames: Frames<'_>,
-) -> Result<(), FileError> {
+fn skin(attributes: &Attributes<'_>, joints: &[DAffine3], mut frames: Frames<'_>) -> Result<(), FileError> {
     let mut sums = vec![(DAffine3::ZERO, 0.0); frames.vertices.len()];
     for set in 0.. {
-        let [ids, weights] = ["JOINTS", "WEIGHTS"].map(|name| attributes.get(&format!("{name}_{set}")).copied());
+        let ids = attributes.numbers::<4>(&format!("JOINTS_{set}"))?;
+        let weights = attributes.floats::<4>(&format!("WEIGHTS_{set}"), 0.0)?;
         let (Some(ids), Some(weights)) = (ids, weights) else { break };
-        let parts = buffers.numbers::<4>(ids)?.into_iter().zip(buffers.floats::<4>(weights, 0.0)?);
+        let parts = ids.into_iter().zip(weights);
         for ((sum, total), (ids, weights)) in sums.iter_mut().zip(parts) {
             for (id, weight) in ids.into_iter().zip(weights.map(f64::from)).filter(|&(_, weight)| weight > 0.0) {
                 let joint = joints.get(id as usize);

@@ -4,10 +4,12 @@
 
 mod accessor;
 mod animation;
+mod attribute;
 mod camera;
 mod container;
 mod directions;
 mod document;
+mod draco;
 mod extensions;
 mod light;
 mod material;

@@ -16,7 +16,7 @@ use crate::image::{pixels_size, read_pixels_bytes};
 use crate::scene::assets::MAX_BYTES;
 use crate::scene::model::gltf::accessor::{Buffers, missing};
 use crate::scene::model::gltf::container;
-use crate::scene::model::gltf::document::{Document, TextureInfo, TextureTransform};
+use crate::scene::model::gltf::document::{Document, Texture, TextureInfo, TextureTransform};
 use crate::warning::Warning;
 
 /// The pictures that the file's textures show, by their index; those that cannot be read are left out.
@@ -25,7 +25,7 @@ pub(super) struct Pictures(BTreeMap<usize, Arc<Pixels>>);
 impl Pictures {
     /// Decodes all at the same time.
     pub(super) fn read(buffers: &Buffers<'_>, folder: &Path, warnings: &mut Vec<Warning>) -> Self {
-        let mut sources: Vec<_> = buffers.document.textures.iter().filter_map(|texture| texture.source).collect();
+        let mut sources: Vec<_> = buffers.document.textures.iter().filter_map(Texture::picture).collect();
         sources.sort_unstable();
         sources.dedup();
         let mut taken = 0;
@@ -71,9 +71,9 @@ impl Pictures {
         warnings: &mut Vec<Warning>,
     ) -> Option<ImageTexture> {
         let texture = document.textures.get(info.index)?;
-        let Some(index) = texture.source else {
+        let Some(index) = texture.picture() else {
             warnings
-                .push(Warning::new(format!("texture {} is left out: no picture of it is a PNG or JPEG", info.index)));
+                .push(Warning::new(format!("texture {} is left out: it has no picture of a known format", info.index)));
             return None;
         };
         let pixels = self.0.get(&index)?;
