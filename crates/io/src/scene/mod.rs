@@ -18,7 +18,7 @@ use eyebeam_core::setup::Given;
 use crate::error::Error;
 use crate::warning::Warning;
 
-pub use model::{MODEL_FORMATS, ModelFormat, Up};
+pub use model::{Files, MODEL_FORMATS, ModelFormat, Up};
 
 /// A scene as it was read, with all the files that it names.
 #[derive(Clone, Debug)]
@@ -70,8 +70,20 @@ pub fn read(path: &Path, overrides: &[Override]) -> Result<SceneFile, Error> {
 /// Everything that is wrong with it, or why it cannot be read.
 pub fn read_with(path: &Path, options: &ReadOptions<'_>) -> Result<SceneFile, Error> {
     match model::format_of(path) {
-        Some(format) => model::read(format, path, options),
+        Some(format) => model::read(format, &model::Input::file(path), options),
         None => toml::read(source::Sources::load(path)?, options.overrides),
+    }
+}
+
+/// As [`read_with`], from the bytes of a file, whose name tells what it is and stands for it in errors; where the files are that it
+/// names is said.
+///
+/// # Errors
+/// Everything that is wrong with it, or why it cannot be read.
+pub fn read_bytes(name: &str, bytes: &[u8], files: Files<'_>, options: &ReadOptions<'_>) -> Result<SceneFile, Error> {
+    match model::format_of(Path::new(name)) {
+        Some(format) => model::read(format, &model::Input::given(name, bytes, files), options),
+        None => toml::read(source::Sources::from_bytes(name, bytes, files)?, options.overrides),
     }
 }
 

@@ -3,6 +3,7 @@
 //! A model becomes a [`SceneDesc`] whose meshes and pictures are loaded. It seldom has a camera or light;
 //! [`Given`] tells what it has, and [`setup`](eyebeam_core::setup) makes the rest.
 
+mod files;
 mod folder;
 mod gltf;
 mod lines;
@@ -26,6 +27,8 @@ use crate::scene::source::Sources;
 use crate::scene::{Override, ReadOptions, SceneFile, toml};
 use crate::warning::Warning;
 
+pub use files::Files;
+pub(super) use files::Input;
 pub use up::Up;
 
 /// A kind of file that models are in.
@@ -36,7 +39,7 @@ pub struct ModelFormat {
     pub endings: &'static [&'static str],
     /// What is up in files that do not say; none if the format tells.
     pub up: Option<Up>,
-    read: fn(&Path, &ReadOptions<'_>) -> Result<Model, Error>,
+    read: fn(&Input<'_>, &ReadOptions<'_>) -> Result<Model, Error>,
 }
 
 /// Every kind.
@@ -84,9 +87,9 @@ pub(super) fn format_of(path: &Path) -> Option<&'static ModelFormat> {
 ///
 /// # Errors
 /// If it cannot be read, or a setting is not of `render`.
-pub(super) fn read(format: &ModelFormat, path: &Path, options: &ReadOptions<'_>) -> Result<SceneFile, Error> {
+pub(super) fn read(format: &ModelFormat, input: &Input<'_>, options: &ReadOptions<'_>) -> Result<SceneFile, Error> {
     let render = render_settings(options.overrides)?;
-    let Model { mut desc, given, mut warnings } = (format.read)(path, options)?;
+    let Model { mut desc, given, mut warnings } = (format.read)(input, options)?;
     desc.render = render;
     match (options.up, format.up) {
         (given, Some(default)) => given.unwrap_or(default).turn(&mut desc),
@@ -100,7 +103,7 @@ pub(super) fn read(format: &ModelFormat, path: &Path, options: &ReadOptions<'_>)
         return Ok(SceneFile { desc, warnings, given });
     }
     let diagnostic = |message, hint| Diagnostic {
-        message: format!("in `{}`: {message}", path.display()),
+        message: format!("in `{}`: {message}", input.name),
         place: None,
         hint,
         unreadable: false,

@@ -4,16 +4,15 @@
 //! said; printers build along +Z. StereoLithography Interface Specification, 3D Systems, 1988.
 
 use std::collections::HashMap;
-use std::io::{BufReader, Read};
-use std::path::Path;
+use std::io::Read;
 use std::sync::Arc;
 
 use eyebeam_core::shape::{MeshData, MeshDesc};
 
 use crate::error::{At, Error, FileError};
-use crate::file;
 use crate::scene::ReadOptions;
 use crate::scene::model::Model;
+use crate::scene::model::files::Input;
 use crate::scene::model::lines::Lines;
 use crate::scene::model::skipped::Skipped;
 use crate::warning::Warning;
@@ -23,21 +22,19 @@ const HEADER: usize = 84;
 /// Bytes of a triangle: a normal, three vertices, and two of colour.
 const FACET: usize = 50;
 
-pub(super) fn read(path: &Path, _: &ReadOptions<'_>) -> Result<Model, Error> {
-    let name = path.display().to_string();
+pub(super) fn read(input: &Input<'_>, _: &ReadOptions<'_>) -> Result<Model, Error> {
+    let name = input.name.clone();
     let mut model = Model::new();
     let mut mesh = Builder::default();
-    let file = file::open(path)?;
-    let length = file.metadata().map_err(|e| Error::read(path, e))?.len();
-    let mut source = BufReader::new(file);
+    let (mut source, length) = input.open()?;
     let mut header = Vec::new();
-    source.by_ref().take(HEADER as u64).read_to_end(&mut header).map_err(|e| Error::read(path, e))?;
+    source.by_ref().take(HEADER as u64).read_to_end(&mut header).map_err(|e| input.unreadable(e))?;
     let count = header.last_chunk::<4>().filter(|_| header.len() == HEADER).map(|n| u32::from_le_bytes(*n));
     let expected = count.map(|count| HEADER as u64 + u64::from(count) * FACET as u64);
     let says_solid = header.trim_ascii_start().get(..5).is_some_and(|word| word.eq_ignore_ascii_case(b"solid"));
     match (count, expected) {
         (Some(count), Some(expected)) if expected == length || (!says_solid && expected <= length) => {
-            let colored = binary(&mut source, count, &mut mesh).map_err(|e| e.or_read(path))?;
+            let colored = binary(&mut source, count, &mut mesh).map_err(|e| e.or_read(input))?;
             if colored > 0 {
                 model.warnings.push(Warning::new(format!("`{name}`: the colours of {colored} triangles are not read")));
             }
@@ -46,7 +43,7 @@ pub(super) fn read(path: &Path, _: &ReadOptions<'_>) -> Result<Model, Error> {
                 model.warnings.push(Warning::new(format!("`{name}`: {rest} bytes after the triangles are not read")));
             }
         }
-        _ if says_solid => text(path, &name, &mut mesh, &mut model.warnings)?,
+        _ if says_solid => text(input, &mut mesh, &mut model.warnings)?,
         (Some(count), _) => {
             let error = FileError::new(format!("the file is too short for {count} triangles"));
             return Err(error.at(At::Byte(HEADER - 4)).hint("it is cut off, or no STL").of(&name));
@@ -93,10 +90,10 @@ enum Failure {
 }
 
 impl Failure {
-    fn or_read(self, path: &Path) -> Error {
+    fn or_read(self, input: &Input<'_>) -> Error {
         match self {
-            Self::Io(e) => Error::read(path, e),
-            Self::File(e) => e.of(&path.display().to_string()),
+            Self::Io(e) => input.unreadable(e),
+            Self::File(e) => e.of(&input.name),
         }
     }
 }
@@ -118,8 +115,9 @@ fn binary(source: &mut impl Read, count: u32, mesh: &mut Builder) -> Result<usiz
 }
 
 /// Reads a text: the vertices between `outer loop` and `endloop`.
-fn text(path: &Path, name: &str, mesh: &mut Builder, warnings: &mut Vec<Warning>) -> Result<(), Error> {
-    let mut lines = Lines::open(path, false)?;
+fn text(input: &Input<'_>, mesh: &mut Builder, warnings: &mut Vec<Warning>) -> Result<(), Error> {
+    let name = &input.name;
+    let mut lines = Lines::new(input.open()?.0, name, false)?;
     let mut skipped = Skipped::default();
     let mut corners: Vec<[f32; 3]> = Vec::new();
     let mut last = 0;

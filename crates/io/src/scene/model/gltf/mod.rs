@@ -16,7 +16,6 @@ mod node;
 mod texture;
 
 use std::collections::BTreeMap;
-use std::path::Path;
 use std::sync::Arc;
 
 use eyebeam_core::shape::MeshDesc;
@@ -29,22 +28,20 @@ use self::material::Materials;
 use self::mesh::Pose;
 use self::texture::Pictures;
 use crate::error::{At, Error, FileError};
-use crate::file;
 use crate::scene::ReadOptions;
 use crate::scene::model::Model;
-use crate::scene::model::folder;
+use crate::scene::model::files::{Files, Input};
 use crate::warning::Warning;
 
 /// Triangles of all meshes where they stand.
 const MOST_TRIANGLES: usize = 100_000_000;
 
-pub(super) fn read(path: &Path, options: &ReadOptions<'_>) -> Result<Model, Error> {
-    let bytes = file::read(path)?;
-    let name = path.display().to_string();
-    read_bytes(&name, &bytes, folder::of(path), options).map_err(|e| e.of(&name))
+pub(super) fn read(input: &Input<'_>, options: &ReadOptions<'_>) -> Result<Model, Error> {
+    let Input { name, files, .. } = input;
+    read_bytes(name, &input.bytes()?, *files, options).map_err(|e| e.of(name))
 }
 
-fn read_bytes(name: &str, bytes: &[u8], folder: &Path, options: &ReadOptions<'_>) -> Result<Model, FileError> {
+fn read_bytes(name: &str, bytes: &[u8], files: Files<'_>, options: &ReadOptions<'_>) -> Result<Model, FileError> {
     let Container { json, bytes } = Container::open(bytes)?;
     let mut document: Document =
         serde_json::from_slice(json).map_err(|e| FileError::new(e.to_string()).at(At::Line(e.line())))?;
@@ -54,10 +51,10 @@ fn read_bytes(name: &str, bytes: &[u8], folder: &Path, options: &ReadOptions<'_>
     }
     let mut model = Model::new();
     extensions::check(&document, &mut model.warnings)?;
-    let bytes = Bytes::new(&document, load(&document, bytes, folder)?)?;
+    let bytes = Bytes::new(&document, load(&document, bytes, files)?)?;
     pose(&mut document, &bytes, options, &mut model.warnings)?;
     let buffers = Buffers { document: &document, bytes: &bytes };
-    let pictures = Pictures::read(&buffers, folder, &mut model.warnings);
+    let pictures = Pictures::read(&buffers, files, &mut model.warnings);
     let mut materials = Materials::new(&document, &pictures, name);
     let placed = node::in_world(&document, document.scene.unwrap_or(0))?;
     let in_world: BTreeMap<usize, DAffine3> = placed.iter().copied().collect();
@@ -122,11 +119,11 @@ fn pose(
 }
 
 /// The bytes of all buffers; the first may be those behind the JSON.
-fn load(document: &Document, mut behind: Option<&[u8]>, folder: &Path) -> Result<Vec<Vec<u8>>, FileError> {
+fn load(document: &Document, mut behind: Option<&[u8]>, files: Files<'_>) -> Result<Vec<Vec<u8>>, FileError> {
     let mut buffers = Vec::new();
     for (i, buffer) in document.buffers.iter().enumerate() {
         let bytes = match (&buffer.uri, behind.take()) {
-            (Some(uri), _) => container::resolve(uri, folder)?,
+            (Some(uri), _) => container::resolve(uri, files)?,
             (None, Some(bytes)) if i == 0 => bytes.to_vec(),
             // Filled by an extension, if at all.
             (None, _) => Vec::new(),

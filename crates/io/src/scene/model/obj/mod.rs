@@ -21,7 +21,7 @@ use glam::{DVec3, Vec3};
 use crate::error::{At, Error, FileError};
 use crate::scene::ReadOptions;
 use crate::scene::model::Model;
-use crate::scene::model::folder;
+use crate::scene::model::files::{Files, Input};
 use crate::scene::model::lines::Lines;
 use crate::scene::model::skipped::Skipped;
 use crate::warning::Warning;
@@ -29,19 +29,19 @@ use meshes::{Corner, Meshes, Normal, Points};
 use mtl::Mtl;
 use pictures::Pictures;
 
-pub(super) fn read(path: &Path, _: &ReadOptions<'_>) -> Result<Model, Error> {
-    let name = path.display().to_string();
+pub(super) fn read(input: &Input<'_>, _: &ReadOptions<'_>) -> Result<Model, Error> {
+    let name = &input.name;
     let mut reader = Reader::default();
-    let mut lines = Lines::open(path, true)?;
+    let mut lines = Lines::new(input.open()?.0, name, true)?;
     while let Some((number, line)) = lines.next()? {
-        reader.line(line, number).map_err(|e| e.at(At::Line(number)).of(&name))?;
+        reader.line(line, number).map_err(|e| e.at(At::Line(number)).of(name))?;
     }
     if reader.faces == 0 {
         return Err(FileError::new("the file has no faces")
             .hint("it is empty, or holds curves or points alone")
-            .of(&name));
+            .of(name));
     }
-    Ok(reader.finish(path, &name))
+    Ok(reader.finish(input.files, name))
 }
 
 #[derive(Default)]
@@ -171,15 +171,14 @@ impl Reader {
         Ok(())
     }
 
-    fn finish(self, path: &Path, file: &str) -> Model {
+    fn finish(self, files: Files<'_>, file: &str) -> Model {
         let Self { points, meshes, materials, libraries, skipped, .. } = self;
         let mut model = Model::new();
         model.warnings = skipped.warnings(file);
-        let folder = folder::of(path);
-        let mut pictures = Pictures::new(folder);
+        let mut pictures = Pictures::new(files);
         let mut known = BTreeMap::new();
         for library in &libraries {
-            read_libraries(folder, library, &mut known, &mut model.warnings);
+            read_libraries(files, library, &mut known, &mut model.warnings);
         }
         let mut made = BTreeMap::new();
         for ((number, _), data) in meshes.finish(&points) {
@@ -250,12 +249,12 @@ fn index(word: &str, count: usize, what: &str) -> Result<u32, FileError> {
 }
 
 /// Reads the libraries after a `mtllib`: one whose name has spaces, or several.
-fn read_libraries(folder: &Path, names: &str, known: &mut BTreeMap<String, Mtl>, warnings: &mut Vec<Warning>) {
-    let find = |name: &str| folder::below(folder, Path::new(name));
+fn read_libraries(files: Files<'_>, names: &str, known: &mut BTreeMap<String, Mtl>, warnings: &mut Vec<Warning>) {
+    let find = |name: &str| files.find(Path::new(name));
     let names = if find(names).is_ok() { vec![names] } else { names.split_ascii_whitespace().collect() };
     for name in names {
         match find(name) {
-            Ok(path) => match mtl::read(&path, name, known) {
+            Ok(path) => match mtl::read(files, &path, name, known) {
                 Ok(found) => warnings.extend(found),
                 Err(e) => warnings.push(Warning::new(format!("`{name}` is not read: {e}"))),
             },
