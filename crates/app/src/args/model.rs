@@ -23,7 +23,13 @@ pub(crate) struct ModelArgs {
 
 impl ModelArgs {
     pub(crate) fn options<'a>(&'a self, overrides: &'a [Override]) -> ReadOptions<'a> {
-        ReadOptions { overrides, up: self.up, animation: self.animation.as_deref(), at: self.at }
+        ReadOptions {
+            overrides,
+            up: self.up,
+            animation: self.animation.as_deref(),
+            at: self.at,
+            ..ReadOptions::default()
+        }
     }
 }
 

@@ -29,6 +29,8 @@ pub struct SceneFile {
     pub warnings: Vec<Warning>,
     /// What it says of camera and light; a scene file says everything.
     pub given: Given,
+    /// About the memory that its meshes and pictures take, bytes.
+    pub memory: u64,
 }
 
 /// How scenes are read.
@@ -42,6 +44,8 @@ pub struct ReadOptions<'a> {
     pub animation: Option<&'a str>,
     /// When, seconds from its start.
     pub at: f32,
+    /// The most memory that its meshes and pictures may take, bytes; 16 GiB if none is said.
+    pub memory: Option<u64>,
 }
 
 /// A setting from outside the file, `key.key=value`: stronger than what the file says.
@@ -71,7 +75,7 @@ pub fn read(path: &Path, overrides: &[Override]) -> Result<SceneFile, Error> {
 pub fn read_with(path: &Path, options: &ReadOptions<'_>) -> Result<SceneFile, Error> {
     match model::format_of(path) {
         Some(format) => model::read(format, &model::Input::file(path), options),
-        None => toml::read(source::Sources::load(path)?, options.overrides),
+        None => toml::read(source::Sources::load(path)?, options),
     }
 }
 
@@ -83,7 +87,7 @@ pub fn read_with(path: &Path, options: &ReadOptions<'_>) -> Result<SceneFile, Er
 pub fn read_bytes(name: &str, bytes: &[u8], files: Files<'_>, options: &ReadOptions<'_>) -> Result<SceneFile, Error> {
     match model::format_of(Path::new(name)) {
         Some(format) => model::read(format, &model::Input::given(name, bytes, files), options),
-        None => toml::read(source::Sources::from_bytes(name, bytes, files)?, options.overrides),
+        None => toml::read(source::Sources::from_bytes(name, bytes, files)?, options),
     }
 }
 
@@ -93,7 +97,7 @@ pub fn read_bytes(name: &str, bytes: &[u8], files: Files<'_>, options: &ReadOpti
 /// # Errors
 /// Everything that is wrong with it.
 pub fn read_str(name: &str, text: &str, overrides: &[Override]) -> Result<SceneFile, Error> {
-    toml::read(source::Sources::from_text(name, text)?, overrides)
+    toml::read(source::Sources::from_text(name, text)?, &ReadOptions { overrides, ..ReadOptions::default() })
 }
 
 /// The JSON Schema of scene files.

@@ -8,8 +8,8 @@ use image::{DynamicImage, ImageDecoder};
 use png::{BitDepth, Decoder, DecodingError, Limits, Reader, Transformations};
 
 use crate::error::FileError;
-use crate::image::read::check_size;
 use crate::image::read::pixels::{compact, pixels};
+use crate::image::read::{DEFLATE, check_length, check_size};
 
 type Png<'b> = Reader<Cursor<&'b [u8]>>;
 type Jpeg<'b> = JpegDecoder<Cursor<&'b [u8]>>;
@@ -36,9 +36,9 @@ pub(super) fn decode_png(bytes: &[u8], more: u64) -> Result<Pixels, FileError> {
     pixels([width, height], channels, samples)
 }
 
-/// The memory that pixels take, by the header alone.
-pub(super) fn png_size(bytes: &[u8]) -> Result<u64, FileError> {
-    open_png(bytes, 0).map(|(_, memory)| memory)
+/// The memory that pixels take, by the header alone, and so many bytes more for each.
+pub(super) fn png_size(bytes: &[u8], more: u64) -> Result<u64, FileError> {
+    open_png(bytes, more).map(|(_, memory)| memory)
 }
 
 fn open_png(bytes: &[u8], more: u64) -> Result<(Png<'_>, u64), FileError> {
@@ -52,6 +52,8 @@ fn open_png(bytes: &[u8], more: u64) -> Result<(Png<'_>, u64), FileError> {
     // Words are put in order in another place.
     let copies = if reader.output_color_type().1 == BitDepth::Sixteen { 2 } else { 1 };
     let memory = check_size(width.into(), height.into(), copies * stride(&reader) as u64 + more)?;
+    let in_byte = 8 / reader.info().bits_per_pixel().clamp(1, 8) as u64;
+    check_length(bytes, width.into(), height.into(), DEFLATE * in_byte)?;
     Ok((reader, memory))
 }
 
@@ -67,6 +69,8 @@ fn wrong_png(e: DecodingError) -> FileError {
 
 /// Of a progressive JPEG: three coefficients, their samples, and the decoded bytes.
 const JPEG_BYTES_PER_PIXEL: u64 = 20;
+/// A block of 64 pixels takes a bit at least.
+const JPEG_PIXELS_IN_BYTE: u64 = 8 * 64;
 
 /// Refused if the picture, and so many bytes more for each pixel, are more than is allowed.
 pub(super) fn decode_jpeg(bytes: &[u8], more: u64) -> Result<Pixels, FileError> {
@@ -80,16 +84,17 @@ pub(super) fn decode_jpeg(bytes: &[u8], more: u64) -> Result<Pixels, FileError> 
     pixels([width, height], channels, Samples::Byte(signals))
 }
 
-/// The memory that pixels take, by the header alone.
-pub(super) fn jpeg_size(bytes: &[u8]) -> Result<u64, FileError> {
-    open_jpeg(bytes, 0).map(|(_, memory)| memory)
+/// The memory that pixels take, by the header alone, and so many bytes more for each.
+pub(super) fn jpeg_size(bytes: &[u8], more: u64) -> Result<u64, FileError> {
+    open_jpeg(bytes, more).map(|(_, memory)| memory)
 }
 
 fn open_jpeg(bytes: &[u8], more: u64) -> Result<(Jpeg<'_>, u64), FileError> {
     let decoder = JpegDecoder::new(Cursor::new(bytes)).map_err(wrong_jpeg)?;
     let (width, height) = decoder.dimensions();
     check_size(width.into(), height.into(), JPEG_BYTES_PER_PIXEL + more)?;
-    let memory = u64::from(width) * u64::from(height) * u64::from(decoder.color_type().bytes_per_pixel());
+    check_length(bytes, width.into(), height.into(), JPEG_PIXELS_IN_BYTE)?;
+    let memory = u64::from(width) * u64::from(height) * (u64::from(decoder.color_type().bytes_per_pixel()) + more);
     Ok((decoder, memory))
 }
 

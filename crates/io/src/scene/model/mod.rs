@@ -23,6 +23,7 @@ use eyebeam_core::setup::Given;
 use eyebeam_core::texture::{Color, TextureDesc, VertexColor};
 
 use crate::error::{Diagnostic, Error};
+use crate::memory::Memory;
 use crate::scene::source::Sources;
 use crate::scene::{Override, ReadOptions, SceneFile, toml};
 use crate::warning::Warning;
@@ -39,7 +40,7 @@ pub struct ModelFormat {
     pub endings: &'static [&'static str],
     /// What is up in files that do not say; none if the format tells.
     pub up: Option<Up>,
-    read: fn(&Input<'_>, &ReadOptions<'_>) -> Result<Model, Error>,
+    read: fn(&Input<'_>, &ReadOptions<'_>, &Memory) -> Result<Model, Error>,
 }
 
 /// Every kind.
@@ -89,7 +90,8 @@ pub(super) fn format_of(path: &Path) -> Option<&'static ModelFormat> {
 /// If it cannot be read, or a setting is not of `render`.
 pub(super) fn read(format: &ModelFormat, input: &Input<'_>, options: &ReadOptions<'_>) -> Result<SceneFile, Error> {
     let render = render_settings(options.overrides)?;
-    let Model { mut desc, given, mut warnings } = (format.read)(input, options)?;
+    let memory = Memory::new(options.memory);
+    let Model { mut desc, given, mut warnings } = (format.read)(input, options, &memory)?;
     desc.render = render;
     match (options.up, format.up) {
         (given, Some(default)) => given.unwrap_or(default).turn(&mut desc),
@@ -100,7 +102,7 @@ pub(super) fn read(format: &ModelFormat, input: &Input<'_>, options: &ReadOption
     }
     let problems = desc.check();
     if problems.is_empty() {
-        return Ok(SceneFile { desc, warnings, given });
+        return Ok(SceneFile { desc, warnings, given, memory: memory.taken() });
     }
     let diagnostic = |message, hint| Diagnostic {
         message: format!("in `{}`: {message}", input.name),
@@ -121,5 +123,6 @@ fn render_settings(overrides: &[Override]) -> Result<RenderDesc, Error> {
             unreadable: false,
         }]));
     }
-    Ok(toml::read(Sources::from_text("settings", "")?, overrides)?.desc.render)
+    let options = ReadOptions { overrides, ..ReadOptions::default() };
+    Ok(toml::read(Sources::from_text("settings", "")?, &options)?.desc.render)
 }

@@ -10,6 +10,7 @@ use std::sync::Arc;
 use eyebeam_core::shape::{MeshData, MeshDesc};
 
 use crate::error::{At, Error, FileError};
+use crate::memory::Memory;
 use crate::scene::ReadOptions;
 use crate::scene::model::Model;
 use crate::scene::model::files::Input;
@@ -22,10 +23,10 @@ const HEADER: usize = 84;
 /// Bytes of a triangle: a normal, three vertices, and two of colour.
 const FACET: usize = 50;
 
-pub(super) fn read(input: &Input<'_>, _: &ReadOptions<'_>) -> Result<Model, Error> {
+pub(super) fn read(input: &Input<'_>, _: &ReadOptions<'_>, memory: &Memory) -> Result<Model, Error> {
     let name = input.name.clone();
     let mut model = Model::new();
-    let mut mesh = Builder::default();
+    let mut mesh = Builder::new(memory);
     let (mut source, length) = input.open()?;
     let mut header = Vec::new();
     source.by_ref().take(HEADER as u64).read_to_end(&mut header).map_err(|e| input.unreadable(e))?;
@@ -52,21 +53,36 @@ pub(super) fn read(input: &Input<'_>, _: &ReadOptions<'_>) -> Result<Model, Erro
             return Err(FileError::new("the file is no STL").hint("it is cut off, or of another kind").of(&name));
         }
     }
+    memory.take(mesh.bytes()).map_err(|e| e.of(&name))?;
     let data = Some(Arc::new(mesh.data));
     model.desc.shape.mesh.push(MeshDesc { file: Some(name), data, ..MeshDesc::default() });
     Ok(model)
 }
 
 /// A mesh in the making.
-#[derive(Default)]
-struct Builder {
+struct Builder<'a> {
     data: MeshData,
     /// Vertices by their bits.
     vertices: HashMap<[u32; 3], u32>,
+    memory: &'a Memory,
 }
 
-impl Builder {
+impl<'a> Builder<'a> {
+    fn new(memory: &'a Memory) -> Self {
+        Self { data: MeshData::default(), vertices: HashMap::new(), memory }
+    }
+
+    /// That it takes until now, about.
+    fn bytes(&self) -> u64 {
+        // A vertex is in a list and in a table that may be half empty.
+        (12 * self.data.triangles.len() + 48 * self.data.vertices.len()) as u64
+    }
+
     fn push(&mut self, corners: [[f32; 3]; 3]) -> Result<(), FileError> {
+        const BETWEEN_CHECKS: usize = 1 << 16;
+        if self.data.triangles.len().is_multiple_of(BETWEEN_CHECKS) {
+            self.memory.check(self.bytes())?;
+        }
         let mut triangle = [0; 3];
         for (index, corner) in triangle.iter_mut().zip(corners) {
             if corner.iter().any(|c| !c.is_finite()) {
@@ -99,7 +115,7 @@ impl Failure {
 }
 
 /// Reads triangles; how many have colours.
-fn binary(source: &mut impl Read, count: u32, mesh: &mut Builder) -> Result<usize, Failure> {
+fn binary(source: &mut impl Read, count: u32, mesh: &mut Builder<'_>) -> Result<usize, Failure> {
     let mut colored = 0;
     let mut facet = [0; FACET];
     for i in 0..count as usize {
@@ -115,7 +131,7 @@ fn binary(source: &mut impl Read, count: u32, mesh: &mut Builder) -> Result<usiz
 }
 
 /// Reads a text: the vertices between `outer loop` and `endloop`.
-fn text(input: &Input<'_>, mesh: &mut Builder, warnings: &mut Vec<Warning>) -> Result<(), Error> {
+fn text(input: &Input<'_>, mesh: &mut Builder<'_>, warnings: &mut Vec<Warning>) -> Result<(), Error> {
     let name = &input.name;
     let mut lines = Lines::new(input.open()?.0, name, false)?;
     let mut skipped = Skipped::default();

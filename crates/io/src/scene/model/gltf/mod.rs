@@ -13,9 +13,11 @@ mod material;
 mod mesh;
 mod meshopt;
 mod node;
+mod plan;
 mod texture;
 
 use std::collections::BTreeMap;
+use std::collections::btree_map::Entry;
 use std::sync::Arc;
 
 use eyebeam_core::shape::MeshDesc;
@@ -28,21 +30,26 @@ use self::material::Materials;
 use self::mesh::Pose;
 use self::texture::Pictures;
 use crate::error::{At, Error, FileError};
+use crate::memory::Memory;
 use crate::scene::ReadOptions;
 use crate::scene::model::Model;
 use crate::scene::model::files::{Files, Input};
 use crate::warning::Warning;
 
-/// Triangles of all meshes where they stand.
-const MOST_TRIANGLES: usize = 100_000_000;
-
-pub(super) fn read(input: &Input<'_>, options: &ReadOptions<'_>) -> Result<Model, Error> {
+pub(super) fn read(input: &Input<'_>, options: &ReadOptions<'_>, memory: &Memory) -> Result<Model, Error> {
     let Input { name, files, .. } = input;
-    read_bytes(name, &input.bytes()?, *files, options).map_err(|e| e.of(name))
+    read_bytes(name, &input.bytes()?, *files, options, memory).map_err(|e| e.of(name))
 }
 
-fn read_bytes(name: &str, bytes: &[u8], files: Files<'_>, options: &ReadOptions<'_>) -> Result<Model, FileError> {
+fn read_bytes(
+    name: &str,
+    bytes: &[u8],
+    files: Files<'_>,
+    options: &ReadOptions<'_>,
+    memory: &Memory,
+) -> Result<Model, FileError> {
     let Container { json, bytes } = Container::open(bytes)?;
+    memory.check(document::size(json))?;
     let mut document: Document =
         serde_json::from_slice(json).map_err(|e| FileError::new(e.to_string()).at(At::Line(e.line())))?;
     let version = &document.asset.version;
@@ -51,34 +58,38 @@ fn read_bytes(name: &str, bytes: &[u8], files: Files<'_>, options: &ReadOptions<
     }
     let mut model = Model::new();
     extensions::check(&document, &mut model.warnings)?;
-    let bytes = Bytes::new(&document, load(&document, bytes, files)?)?;
-    pose(&mut document, &bytes, options, &mut model.warnings)?;
-    let buffers = Buffers { document: &document, bytes: &bytes };
+    let bytes = Bytes::new(&document, load(&document, bytes, files, memory)?, memory)?;
+    pose(&mut document, &bytes, memory, options, &mut model.warnings)?;
+    let buffers = Buffers { document: &document, bytes: &bytes, memory };
     let pictures = Pictures::read(&buffers, files, &mut model.warnings);
     let mut materials = Materials::new(&document, &pictures, name);
     let placed = node::in_world(&document, document.scene.unwrap_or(0))?;
+    plan::check(&buffers, &placed)?;
+    let lights = light::all(&document);
     let in_world: BTreeMap<usize, DAffine3> = placed.iter().copied().collect();
-    let (mut triangles, mut skipped) = (0, 0);
+    let mut skins = BTreeMap::new();
+    let mut skipped = 0;
     for &(index, to_world) in &placed {
         let Some(node) = document.nodes.get(index) else { continue };
         camera::read(&document, node, &to_world, &mut model)?;
-        light::read(&document, node, &to_world, &mut model)?;
+        light::read(&lights, node, &to_world, &mut model)?;
         let Some(mesh) = node.mesh else { continue };
         let mesh = document.meshes.get(mesh).ok_or_else(|| missing("mesh", mesh))?;
-        let joints = node.skin.map(|skin| joints(&buffers, skin, &in_world)).transpose()?;
+        if let Some(skin) = node.skin
+            && let Entry::Vacant(entry) = skins.entry(skin)
+        {
+            entry.insert(joints(&buffers, skin, &in_world)?);
+        }
+        let joints = node.skin.and_then(|skin| skins.get(&skin));
         let weights = if node.weights.is_empty() { &mesh.weights } else { &node.weights };
         let copies = node::copies(&buffers, node)?;
         for (primitive, copy) in mesh.primitives.iter().flat_map(|p| copies.iter().map(move |copy| (p, copy))) {
-            let skinned = joints.as_deref().filter(|_| primitive.attributes.contains_key("JOINTS_0"));
+            let skinned = joints.map(Vec::as_slice).filter(|_| primitive.attributes.contains_key("JOINTS_0"));
             let pose = Pose { to_world: to_world * *copy, weights, joints: skinned };
             let Some(data) = mesh::read(&buffers, primitive, &pose)? else {
                 skipped += 1;
                 continue;
             };
-            triangles += data.triangles.len();
-            if triangles > MOST_TRIANGLES {
-                return Err(FileError::new(format!("the model has more than {MOST_TRIANGLES} triangles")));
-            }
             let has_colors = !data.colors.is_empty();
             let material = materials.name(primitive.material, has_colors, &mut model.desc, &mut model.warnings);
             model.desc.shape.mesh.push(MeshDesc {
@@ -100,6 +111,7 @@ fn read_bytes(name: &str, bytes: &[u8], files: Files<'_>, options: &ReadOptions<
 fn pose(
     document: &mut Document,
     bytes: &Bytes,
+    memory: &Memory,
     options: &ReadOptions<'_>,
     warnings: &mut Vec<Warning>,
 ) -> Result<(), FileError> {
@@ -113,13 +125,18 @@ fn pose(
         return Ok(());
     };
     let animation = animation::find(document, name)?;
-    let changes = animation::sample(&Buffers { document, bytes }, animation, options.at)?;
+    let changes = animation::sample(&Buffers { document, bytes, memory }, animation, options.at)?;
     animation::apply(document, changes);
     Ok(())
 }
 
 /// The bytes of all buffers; the first may be those behind the JSON.
-fn load(document: &Document, mut behind: Option<&[u8]>, files: Files<'_>) -> Result<Vec<Vec<u8>>, FileError> {
+fn load(
+    document: &Document,
+    mut behind: Option<&[u8]>,
+    files: Files<'_>,
+    memory: &Memory,
+) -> Result<Vec<Vec<u8>>, FileError> {
     let mut buffers = Vec::new();
     for (i, buffer) in document.buffers.iter().enumerate() {
         let bytes = match (&buffer.uri, behind.take()) {
@@ -132,6 +149,7 @@ fn load(document: &Document, mut behind: Option<&[u8]>, files: Files<'_>) -> Res
             let (has, wants) = (bytes.len(), buffer.byte_length);
             return Err(FileError::new(format!("buffer {i} has {has} of {wants} bytes")));
         }
+        memory.take(bytes.len() as u64)?;
         buffers.push(bytes);
     }
     Ok(buffers)

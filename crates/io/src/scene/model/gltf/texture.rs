@@ -12,7 +12,6 @@ use rayon::prelude::*;
 
 use crate::error::FileError;
 use crate::image::{pixels_size, read_pixels_bytes};
-use crate::scene::assets::MAX_BYTES;
 use crate::scene::model::files::Files;
 use crate::scene::model::gltf::accessor::{Buffers, missing};
 use crate::scene::model::gltf::container;
@@ -28,14 +27,10 @@ impl Pictures {
         let mut sources: Vec<_> = buffers.document.textures.iter().filter_map(|texture| texture.source).collect();
         sources.sort_unstable();
         sources.dedup();
-        let mut taken = 0;
         let mut encoded = Vec::new();
         for index in sources {
             let bytes = bytes(buffers, files, index).and_then(|bytes| {
-                taken += pixels_size("", &bytes)?;
-                if taken > MAX_BYTES {
-                    return Err(FileError::new(format!("the pictures take more than {} GiB", MAX_BYTES >> 30)));
-                }
+                buffers.memory.take(bytes.len() as u64 + pixels_size("", &bytes)?)?;
                 Ok(bytes)
             });
             encoded.push((index, bytes));

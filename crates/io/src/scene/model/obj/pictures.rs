@@ -8,7 +8,7 @@ use eyebeam_core::texture::Pixels;
 
 use crate::error::{Error, FileError};
 use crate::image::{pixels_size, read_pixels_bytes};
-use crate::scene::assets::MAX_BYTES;
+use crate::memory::Memory;
 use crate::scene::model::files::Files;
 use crate::warning::Warning;
 
@@ -16,12 +16,12 @@ use crate::warning::Warning;
 pub(super) struct Pictures<'a> {
     files: Files<'a>,
     known: BTreeMap<PathBuf, Option<Arc<Pixels>>>,
-    bytes: u64,
+    memory: &'a Memory,
 }
 
 impl<'a> Pictures<'a> {
-    pub(super) fn new(files: Files<'a>) -> Self {
-        Self { files, known: BTreeMap::new(), bytes: 0 }
+    pub(super) fn new(files: Files<'a>, memory: &'a Memory) -> Self {
+        Self { files, known: BTreeMap::new(), memory }
     }
 
     /// The picture of that name, and its path; none, and a warning, if it cannot be had. Warnings are told once for each file.
@@ -51,10 +51,7 @@ impl<'a> Pictures<'a> {
     fn read(&mut self, path: &Path, warnings: &mut Vec<Warning>) -> Result<Arc<Pixels>, Error> {
         let name = path.display().to_string();
         let bytes = self.files.read(path)?;
-        self.bytes = self.bytes.saturating_add(pixels_size(&name, &bytes)?);
-        if self.bytes > MAX_BYTES {
-            return Err(FileError::new(format!("pictures take more than {} GiB", MAX_BYTES >> 30)).of(&name));
-        }
+        self.memory.take(pixels_size(&name, &bytes)?).map_err(|e| e.of(&name))?;
         let (pixels, more) = read_pixels_bytes(&name, &bytes)?;
         warnings.extend(more);
         Ok(Arc::new(pixels))
