@@ -148,6 +148,9 @@ pub(crate) struct CheckArgs {
     /// Take warnings about the scene for errors
     #[arg(long)]
     pub(crate) strict: bool,
+    /// Refuse files that need more memory than this
+    #[arg(long, value_name = "BYTES", default_value = "8G", value_parser = memory)]
+    pub(crate) memory: u64,
 }
 
 #[derive(Debug, ClapArgs)]

@@ -40,6 +40,7 @@ impl Error {
         match self {
             Self::Usage(_) | Self::Io(eyebeam_io::Error::UnknownFormat { .. }) => 2,
             Self::Io(eyebeam_io::Error::Scene(all)) if all.iter().all(|d| d.unreadable) => 4,
+            Self::Io(eyebeam_io::Error::File(e)) if e.memory => 5,
             Self::Io(eyebeam_io::Error::Scene(_) | eyebeam_io::Error::File(_)) | Self::Scene(_) => 3,
             Self::Io(eyebeam_io::Error::Io { .. }) | Self::Stdout(_) => 4,
             Self::Memory { .. } => 5,

@@ -56,6 +56,8 @@ pub struct FileError {
     pub at: At,
     /// What to do about it.
     pub hint: Option<String>,
+    /// Whether the file may be right: it only takes more memory than is allowed.
+    pub memory: bool,
 }
 
 /// Where in a file.
@@ -72,7 +74,7 @@ pub enum At {
 impl FileError {
     /// Of a file that has no name yet: [`Self::of`] gives it.
     pub(crate) fn new(message: impl Into<String>) -> Self {
-        Self { file: String::new(), message: message.into(), at: At::File, hint: None }
+        Self { file: String::new(), message: message.into(), at: At::File, hint: None, memory: false }
     }
 
     pub(crate) fn at(self, at: At) -> Self {

@@ -32,6 +32,7 @@ impl ModelArgs {
             animation: self.animation.as_deref(),
             at: self.at,
             variant: self.variant.as_deref(),
+            ..ReadOptions::default()
         }
     }
 }

@@ -12,7 +12,7 @@ use crate::error::Error;
 
 /// Adds it, as the command line says; what could not be kept of a picture goes to the warnings.
 pub(super) fn complete(
-    SceneFile { desc, warnings, given }: &mut SceneFile,
+    SceneFile { desc, warnings, given, memory }: &mut SceneFile,
     args: &SetupArgs,
 ) -> Result<Assumed, Error> {
     let surroundings = match &args.env {
@@ -23,6 +23,7 @@ pub(super) fn complete(
         Some(EnvironmentArg::Picture(path)) => {
             let (image, more) = read_image(path)?;
             warnings.extend(more);
+            *memory += size_of_val(image.pixels()) as u64;
             let (file, image) = (path.display().to_string(), Some(Arc::new(image)));
             Surroundings::Image(ImageEnvironment { file, rotation: 0.0, scale: 1.0, image })
         }

@@ -10,7 +10,7 @@ mod read;
 pub use encoding::{Bits, Encoding};
 pub use exr::encode_channels;
 pub use read::{
-    LinearPicture, pixels_size, read_image, read_image_bytes, read_linear, read_linear_bytes, read_pixels,
+    LinearPicture, image_size, pixels_size, read_image, read_image_bytes, read_linear, read_linear_bytes, read_pixels,
     read_pixels_bytes,
 };
 

@@ -18,7 +18,7 @@ use eyebeam_core::setup::Given;
 use crate::error::Error;
 use crate::warning::Warning;
 
-pub use model::{MODEL_FORMATS, ModelFormat, Up};
+pub use model::{Files, MODEL_FORMATS, ModelFormat, Up};
 
 /// A scene as it was read, with all the files that it names.
 #[derive(Clone, Debug)]
@@ -29,6 +29,8 @@ pub struct SceneFile {
     pub warnings: Vec<Warning>,
     /// What it says of camera and light; a scene file says everything.
     pub given: Given,
+    /// About the memory that its meshes and pictures take, bytes.
+    pub memory: u64,
 }
 
 /// How scenes are read.
@@ -44,6 +46,8 @@ pub struct ReadOptions<'a> {
     pub at: f32,
     /// The variant of a model's materials, by its name or its number from 0; those of the file if none is said.
     pub variant: Option<&'a str>,
+    /// The most memory that its meshes and pictures may take, bytes; 16 GiB if none is said.
+    pub memory: Option<u64>,
 }
 
 /// A setting from outside the file, `key.key=value`: stronger than what the file says.
@@ -72,8 +76,20 @@ pub fn read(path: &Path, overrides: &[Override]) -> Result<SceneFile, Error> {
 /// Everything that is wrong with it, or why it cannot be read.
 pub fn read_with(path: &Path, options: &ReadOptions<'_>) -> Result<SceneFile, Error> {
     match model::format_of(path) {
-        Some(format) => model::read(format, path, options),
-        None => toml::read(source::Sources::load(path)?, options.overrides),
+        Some(format) => model::read(format, &model::Input::file(path), options),
+        None => toml::read(source::Sources::load(path)?, options),
+    }
+}
+
+/// As [`read_with`], from the bytes of a file, whose name tells what it is and stands for it in errors; where the files are that it
+/// names is said.
+///
+/// # Errors
+/// Everything that is wrong with it, or why it cannot be read.
+pub fn read_bytes(name: &str, bytes: &[u8], files: Files<'_>, options: &ReadOptions<'_>) -> Result<SceneFile, Error> {
+    match model::format_of(Path::new(name)) {
+        Some(format) => model::read(format, &model::Input::given(name, bytes, files), options),
+        None => toml::read(source::Sources::from_bytes(name, bytes, files)?, options),
     }
 }
 
@@ -83,7 +99,7 @@ pub fn read_with(path: &Path, options: &ReadOptions<'_>) -> Result<SceneFile, Er
 /// # Errors
 /// Everything that is wrong with it.
 pub fn read_str(name: &str, text: &str, overrides: &[Override]) -> Result<SceneFile, Error> {
-    toml::read(source::Sources::from_text(name, text)?, overrides)
+    toml::read(source::Sources::from_text(name, text)?, &ReadOptions { overrides, ..ReadOptions::default() })
 }
 
 /// The JSON Schema of scene files.

@@ -20,7 +20,7 @@ use eyebeam_core::setup::{Assumed, Given};
 use eyebeam_io::Warning;
 use eyebeam_io::image::ImageFormat;
 use eyebeam_io::output::check_writable;
-use eyebeam_io::scene::{Override, SceneFile, read_with};
+use eyebeam_io::scene::{Override, ReadOptions, SceneFile, read_with};
 
 use aov::Aovs;
 use stats::{Done, Phases, Provenance, Stats};
@@ -36,7 +36,7 @@ pub(super) fn run(args: &RenderArgs) -> Result<(), Error> {
     let mut target = target(args)?;
     let mut phases = Phases::default();
     let clock = Instant::now();
-    let (SceneFile { desc, warnings, given }, Assumed { what, is_studio }) = describe(args)?;
+    let (SceneFile { desc, warnings, given, memory }, Assumed { what, is_studio }) = describe(args)?;
     if !what.is_empty() && !args.quiet {
         say(&format!("made up: {}", what.join(", ")));
     }
@@ -51,7 +51,7 @@ pub(super) fn run(args: &RenderArgs) -> Result<(), Error> {
     let aovs = args.aovs();
     settings.film.variance = aovs.contains(&Aov::Variance);
     check_format(&target, &settings, &aovs)?;
-    check_memory(&settings, &aovs, target.lens_bytes(), args.memory)?;
+    check_memory(&settings, &aovs, target.lens_bytes(), memory, args.memory)?;
     target.check_writable()?;
     if let Some(path) = args.stats.as_deref().filter(|path| !is_standard(path)) {
         check_writable(path)?;
@@ -103,7 +103,8 @@ fn describe(args: &RenderArgs) -> Result<(SceneFile, Assumed), Error> {
     let named = args.integrator.and_then(|kind| IntegratorKind::NAMES.iter().find(|(_, named)| *named == kind));
     settings
         .extend(named.map(|(name, _)| Override { path: "render.integrator".to_owned(), value: (*name).to_owned() }));
-    let mut file = read_with(&args.scene, &args.model.options(&settings))?;
+    let options = ReadOptions { memory: Some(args.memory), ..args.model.options(&settings) };
+    let mut file = read_with(&args.scene, &options)?;
     let render = &mut file.desc.render;
     (render.width, render.height) = args.resolution.unwrap_or((render.width, render.height));
     render.spp = args.spp.unwrap_or(render.spp);
@@ -115,13 +116,13 @@ fn describe(args: &RenderArgs) -> Result<(SceneFile, Assumed), Error> {
     Ok((told(file, args.strict, args.quiet)?, assumed))
 }
 
-/// Film and picture, what the lens needs for each pixel, and the encoded file.
-fn check_memory(settings: &Settings, aovs: &[Aov], lens: u64, allowed: u64) -> Result<(), Error> {
+/// What the scene's files take, film and picture, what the lens needs for each pixel, and the encoded file.
+fn check_memory(settings: &Settings, aovs: &[Aov], lens: u64, files: u64, allowed: u64) -> Result<(), Error> {
     // 16 bytes a pixel and format at most, and as much again while the file grows or its pixels are copied.
     const ENCODING: u64 = 32;
     let pixels = u64::from(settings.width) * u64::from(settings.height);
     let film = Film::bytes(settings.width, settings.height, &settings.film);
-    let needed = film + (ENCODING + lens) * pixels + Aovs::bytes(settings, aovs);
+    let needed = files + film + (ENCODING + lens) * pixels + Aovs::bytes(settings, aovs);
     if needed > allowed { Err(Error::Memory { needed, allowed }) } else { Ok(()) }
 }
 

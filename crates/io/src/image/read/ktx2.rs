@@ -37,10 +37,10 @@ pub(super) fn decode(bytes: &[u8], more: u64) -> Result<Pixels, FileError> {
     pixels(header.size, channels, Samples::Byte(signals))
 }
 
-/// The memory that pixels take, by the header alone.
-pub(super) fn size(bytes: &[u8]) -> Result<u64, FileError> {
-    let [width, height] = open(bytes, 0)?.size;
-    check_size(width.into(), height.into(), 4)
+/// The memory that pixels take, by the header alone, and so many bytes more for each.
+pub(super) fn size(bytes: &[u8], more: u64) -> Result<u64, FileError> {
+    let [width, height] = open(bytes, more)?.size;
+    check_size(width.into(), height.into(), 4 + more)
 }
 
 fn open(bytes: &[u8], more: u64) -> Result<Header, FileError> {
@@ -152,7 +152,7 @@ mod tests {
         let expected: Vec<u8> = row.cycle().take(15).flatten().collect();
         let pixels = decode(&uastc(COLORS, 0), 0).unwrap();
         assert!(pixels.channels() == 3 && *pixels.samples() == Samples::Byte(expected));
-        assert_eq!(size(&uastc(COLORS, 0)), Ok(60));
+        assert_eq!(size(&uastc(COLORS, 0), 0), Ok(60));
         let alpha = decode(&uastc([[200, 100, 50, 9], [10, 20, 30, 255]], 3), 0).unwrap();
         assert_eq!(alpha.channels(), 4);
         let two = decode(&uastc([[200, 200, 200, 9], [10, 10, 10, 90]], 5), 0).unwrap();

@@ -3,6 +3,7 @@
 //! A model becomes a [`SceneDesc`] whose meshes and pictures are loaded. It seldom has a camera or light;
 //! [`Given`] tells what it has, and [`setup`](eyebeam_core::setup) makes the rest.
 
+mod files;
 mod folder;
 mod gltf;
 mod lines;
@@ -22,10 +23,13 @@ use eyebeam_core::setup::Given;
 use eyebeam_core::texture::{Color, TextureDesc, VertexColor};
 
 use crate::error::{Diagnostic, Error};
+use crate::memory::Memory;
 use crate::scene::source::Sources;
 use crate::scene::{Override, ReadOptions, SceneFile, toml};
 use crate::warning::Warning;
 
+pub use files::Files;
+pub(super) use files::Input;
 pub use up::Up;
 
 /// A kind of file that models are in.
@@ -36,7 +40,7 @@ pub struct ModelFormat {
     pub endings: &'static [&'static str],
     /// What is up in files that do not say; none if the format tells.
     pub up: Option<Up>,
-    read: fn(&Path, &ReadOptions<'_>) -> Result<Model, Error>,
+    read: fn(&Input<'_>, &ReadOptions<'_>, &Memory) -> Result<Model, Error>,
 }
 
 /// Every kind.
@@ -84,9 +88,10 @@ pub(super) fn format_of(path: &Path) -> Option<&'static ModelFormat> {
 ///
 /// # Errors
 /// If it cannot be read, or a setting is not of `render`.
-pub(super) fn read(format: &ModelFormat, path: &Path, options: &ReadOptions<'_>) -> Result<SceneFile, Error> {
+pub(super) fn read(format: &ModelFormat, input: &Input<'_>, options: &ReadOptions<'_>) -> Result<SceneFile, Error> {
     let render = render_settings(options.overrides)?;
-    let Model { mut desc, given, mut warnings } = (format.read)(path, options)?;
+    let memory = Memory::new(options.memory);
+    let Model { mut desc, given, mut warnings } = (format.read)(input, options, &memory)?;
     desc.render = render;
     match (options.up, format.up) {
         (given, Some(default)) => given.unwrap_or(default).turn(&mut desc),
@@ -97,10 +102,10 @@ pub(super) fn read(format: &ModelFormat, path: &Path, options: &ReadOptions<'_>)
     }
     let problems = desc.check();
     if problems.is_empty() {
-        return Ok(SceneFile { desc, warnings, given });
+        return Ok(SceneFile { desc, warnings, given, memory: memory.taken() });
     }
     let diagnostic = |message, hint| Diagnostic {
-        message: format!("in `{}`: {message}", path.display()),
+        message: format!("in `{}`: {message}", input.name),
         place: None,
         hint,
         unreadable: false,
@@ -118,5 +123,6 @@ fn render_settings(overrides: &[Override]) -> Result<RenderDesc, Error> {
             unreadable: false,
         }]));
     }
-    Ok(toml::read(Sources::from_text("settings", "")?, overrides)?.desc.render)
+    let options = ReadOptions { overrides, ..ReadOptions::default() };
+    Ok(toml::read(Sources::from_text("settings", "")?, &options)?.desc.render)
 }

@@ -49,6 +49,28 @@ pub fn read_ply_bytes(name: &str, bytes: &[u8]) -> Result<MeshData, Error> {
     read(bytes).map_err(|e| e.of(name))
 }
 
+/// About the memory that the mesh takes, by the header alone.
+///
+/// # Errors
+/// If that is damaged.
+pub fn mesh_size(name: &str, bytes: &[u8]) -> Result<u64, Error> {
+    let header = Header::parse(bytes).map_err(|e| e.of(name))?;
+    let size = |element: &Element| {
+        let each = match element.name.as_str() {
+            "vertex" => VERTEX.min(element.properties.len() as u64 * 4),
+            // Two triangles.
+            "face" => 24,
+            _ => 0,
+        };
+        // An element takes a byte at least.
+        element.count.min(bytes.len()) as u64 * each
+    };
+    Ok(header.elements.iter().map(size).sum())
+}
+
+/// The bytes of a position, a normal, a coordinate and a colour.
+const VERTEX: u64 = 44;
+
 fn read(bytes: &[u8]) -> Result<MeshData, FileError> {
     let header = Header::parse(bytes)?;
     let vertices = header.only("vertex")?.map_or(0, |e| e.count);

@@ -3,6 +3,9 @@
 //! Between two keys: the value of the first (STEP), an even mix, turns along the shortest arc (LINEAR, Shoemake 1985,
 //! doi:10.1145/325165.325242), or Hermite's cubic (CUBICSPLINE). Khronos, glTF 2.0 Specification, 2021, §3.11 and appendix C.
 
+use std::collections::BTreeMap;
+use std::collections::btree_map::Entry;
+
 use glam::DQuat;
 
 use crate::error::FileError;
@@ -41,11 +44,17 @@ pub(super) fn sample(buffers: &Buffers<'_>, animation: usize, at: f32) -> Result
     let animation = buffers.document.animations.get(animation).ok_or_else(|| missing("animation", animation))?;
     let Animation { channels, samplers, .. } = animation;
     let mut changes = Vec::new();
+    let mut known = BTreeMap::new();
     for channel in channels {
         let Some(node) = channel.target.node else { continue };
         let sampler = samplers.get(channel.sampler).ok_or_else(|| missing("sampler", channel.sampler))?;
         let turns = channel.target.path == "rotation";
-        let values = value(buffers, sampler, at, turns)?;
+        for index in [sampler.input, sampler.output] {
+            if let Entry::Vacant(entry) = known.entry(index) {
+                entry.insert(buffers.flat(index)?);
+            }
+        }
+        let values = value(&known, sampler, at, turns)?;
         let vector = |values: &[f32]| -> Result<[f64; 3], FileError> {
             let vector: Option<[f32; 3]> = values.try_into().ok();
             Ok(vector.ok_or_else(|| FileError::new("an animation moves nodes by what is no vector"))?.map(f64::from))
@@ -81,9 +90,14 @@ pub(super) fn apply(document: &mut Document, changes: Vec<Change>) {
 }
 
 /// The value of a sampler at a time; before its first key and after its last one it is theirs.
-fn value(buffers: &Buffers<'_>, sampler: &AnimationSampler, at: f32, turns: bool) -> Result<Vec<f32>, FileError> {
-    let times: Vec<f32> = buffers.floats::<1>(sampler.input, 0.0)?.into_iter().map(|[t]| t).collect();
-    let numbers = buffers.flat(sampler.output)?;
+fn value(
+    known: &BTreeMap<usize, Vec<f32>>,
+    sampler: &AnimationSampler,
+    at: f32,
+    turns: bool,
+) -> Result<Vec<f32>, FileError> {
+    let numbers_of = |index| known.get(&index).ok_or_else(|| missing("accessor", index));
+    let (times, numbers) = (numbers_of(sampler.input)?, numbers_of(sampler.output)?);
     let is_cubic = sampler.interpolation.as_deref() == Some("CUBICSPLINE");
     let parts = times.len() * if is_cubic { 3 } else { 1 };
     let width = numbers.len().checked_div(parts).unwrap_or_default();

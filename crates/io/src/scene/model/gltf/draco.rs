@@ -14,8 +14,10 @@ use crate::error::FileError;
 use crate::scene::model::gltf::accessor::{Buffers, Component, element};
 use crate::scene::model::gltf::document::Primitive;
 
-/// Triangles of all compressed meshes of a file. To decode one takes some 70 bytes besides its vertices.
+/// Triangles of all compressed meshes of a file.
 const MOST_TRIANGLES: usize = 1 << 25;
+/// What it takes to decode one, besides its vertices.
+const BYTES_PER_TRIANGLE: usize = 70;
 /// Bytes that an attribute of a vertex can have: four numbers of four.
 const MOST_BYTES: usize = 16;
 /// Attributes that a stream may have besides those that are named.
@@ -69,8 +71,17 @@ impl Size {
         }
     }
 
+    /// What decoding takes at most.
+    fn bytes(self) -> u64 {
+        (self.decoded() + self.triangles.saturating_mul(BYTES_PER_TRIANGLE)) as u64
+    }
+
+    fn decoded(self) -> usize {
+        self.vertices.saturating_mul(MOST_BYTES * (self.attributes + MORE_ATTRIBUTES))
+    }
+
     fn limits(self) -> DecodeLimits {
-        let bytes = self.vertices.saturating_mul(MOST_BYTES * (self.attributes + MORE_ATTRIBUTES));
+        let bytes = self.decoded();
         DecodeLimits::default()
             .with_max_faces(self.triangles as u64)
             .with_max_points(self.vertices as u64)
@@ -94,8 +105,11 @@ pub(super) fn decode(buffers: &Buffers<'_>) -> Result<BTreeMap<usize, Stream>, F
         return Err(FileError::new(message).hint("export the model without mesh compression"));
     }
     let of = |view: usize| move |e: FileError| FileError { message: format!("buffer view {view}: {}", e.message), ..e };
-    let stream = |(view, size): (usize, Size)| Ok((view, Stream::decode(buffers.view(view)?, size).map_err(of(view))?));
-    sizes.into_par_iter().map(stream).collect()
+    buffers.memory.check(sizes.values().fold(0, |sum: u64, size| sum.saturating_add(size.bytes())))?;
+    let codes = sizes.into_iter().map(|(view, size)| Ok((view, size, buffers.view(view)?)));
+    let codes = codes.collect::<Result<Vec<_>, FileError>>()?;
+    let stream = |(view, size, code): (usize, Size, &[u8])| Ok((view, Stream::decode(code, size).map_err(of(view))?));
+    codes.into_par_iter().map(stream).collect()
 }
 
 /// A mesh that was compressed.
