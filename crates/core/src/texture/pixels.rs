@@ -74,10 +74,10 @@ impl fmt::Debug for Pixels {
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "kebab-case")]
 pub enum Encoding {
-    /// sRGB in PNG and JPEG, linear in OpenEXR and Radiance HDR.
+    /// Linear in OpenEXR and Radiance HDR, sRGB in all others.
     #[default]
     Auto,
-    /// Colours as screens show them; for PNG and JPEG only.
+    /// Colours as screens show them; not for OpenEXR and Radiance HDR.
     Srgb,
     /// Amounts: normals, roughness, shares.
     Linear,

@@ -142,6 +142,37 @@ fn all_kinds_of_openexr() {
 }
 
 #[test]
+fn basis_universal_of_ktx2() {
+    for path in corpus("gltf").into_iter().filter(|p| has_ending(p, "ktx2")) {
+        let name = path.file_name().unwrap_or_default().to_string_lossy().into_owned();
+        let expected = match name.as_str() {
+            "2d_etc1s.ktx2" => (40, 40),
+            "test.ktx2" => (256, 256),
+            _ => {
+                let error = read_image(&path).unwrap_err().to_string();
+                assert!(error.contains("the KTX2 holds pixels of the Vulkan format"), "{error}");
+                continue;
+            }
+        };
+        let bytes = std::fs::read(&path).unwrap();
+        let image = try_image(&bytes).unwrap();
+        assert_eq!((image.width(), image.height()), expected);
+        assert!((0.02..0.98).contains(&mean(&image)), "{name}: {}", mean(&image));
+        // Wrong bytes, most of them where the sizes and tables are.
+        let mut state = 1_u64;
+        for round in 0..1000 {
+            let mut bytes = bytes.clone();
+            for _ in 0..1 + round % 4 {
+                state = state.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
+                let within = if round % 2 == 0 { bytes.len() } else { bytes.len().min(800) };
+                bytes[(state >> 33) as usize % within] ^= (state >> 20) as u8;
+            }
+            let _ = read_pixels_bytes("a", &bytes).map_err(|error| flaw(error, &bytes));
+        }
+    }
+}
+
+#[test]
 fn bad_ones() {
     for path in corpus("bad") {
         let start = Instant::now();

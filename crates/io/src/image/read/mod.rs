@@ -1,10 +1,11 @@
-//! Pictures that scenes refer to: OpenEXR, Radiance HDR, PNG and JPEG, told apart by their first bytes.
+//! Pictures that scenes refer to: OpenEXR, Radiance HDR, PNG, JPEG, WebP and KTX2, told apart by their first bytes.
 //!
 //! What comes out is linear Rec. 709 without alpha, finite and not negative. OpenEXR and Radiance are linear already;
-//! PNG and JPEG are decoded as sRGB, whatever profile they carry. Pictures of textures stay as they are in the file.
+//! the others are decoded as sRGB, whatever profile they carry. Pictures of textures stay as they are in the file.
 
 mod exr;
 mod hdr;
+mod ktx2;
 mod pixels;
 mod repair;
 mod signals;
@@ -97,6 +98,8 @@ enum Format {
     Hdr,
     Png,
     Jpeg,
+    WebP,
+    Ktx2,
 }
 
 impl Format {
@@ -107,9 +110,11 @@ impl Format {
             [b'#', b'?', ..] => Ok(Self::Hdr),
             [0x89, b'P', b'N', b'G', ..] => Ok(Self::Png),
             [0xff, 0xd8, 0xff, ..] => Ok(Self::Jpeg),
+            [b'R', b'I', b'F', b'F', _, _, _, _, b'W', b'E', b'B', b'P', ..] => Ok(Self::WebP),
+            _ if bytes.starts_with(&ktx2::MAGIC) => Ok(Self::Ktx2),
             [] => Err(FileError::new("the picture is empty")),
             _ => Err(FileError::new("this is no picture of a known format")
-                .hint("OpenEXR, Radiance HDR, PNG and JPEG are read; convert it to one of them")),
+                .hint("OpenEXR, Radiance HDR, PNG, JPEG, WebP and KTX2 are read; convert it to one of them")),
         }
     }
 }
@@ -121,6 +126,8 @@ fn decode(bytes: &[u8]) -> Decoded {
         Format::Hdr => hdr::decode(bytes),
         Format::Png => signals::decode_png(bytes, LINEAR).map(signals),
         Format::Jpeg => signals::decode_jpeg(bytes, LINEAR).map(signals),
+        Format::WebP => signals::decode_webp(bytes, LINEAR).map(signals),
+        Format::Ktx2 => ktx2::decode(bytes, LINEAR).map(signals),
     }
 }
 

@@ -6,7 +6,7 @@ use eyebeam_core::texture::{Pixels, Samples};
 
 use crate::error::{Error, FileError};
 use crate::file;
-use crate::image::read::{Format, LINEAR, exr, hdr, repair_image, signals};
+use crate::image::read::{Format, LINEAR, exr, hdr, ktx2, repair_image, signals};
 use crate::warning::Warning;
 
 /// Reads a picture as it is in the file, but for alpha that is 1 everywhere and colours that are all grey, and says what could
@@ -49,6 +49,8 @@ fn size(bytes: &[u8], more: u64) -> Result<u64, FileError> {
         Format::Hdr => hdr::size(bytes),
         Format::Png => signals::png_size(bytes, more),
         Format::Jpeg => signals::jpeg_size(bytes, more),
+        Format::WebP => signals::webp_size(bytes, more),
+        Format::Ktx2 => ktx2::size(bytes, more),
     }
 }
 
@@ -63,6 +65,8 @@ fn decode(bytes: &[u8]) -> Result<(Pixels, Vec<Warning>), FileError> {
         }
         Format::Png => Ok((signals::decode_png(bytes, 0)?, Vec::new())),
         Format::Jpeg => Ok((signals::decode_jpeg(bytes, 0)?, Vec::new())),
+        Format::WebP => Ok((signals::decode_webp(bytes, 0)?, Vec::new())),
+        Format::Ktx2 => Ok((ktx2::decode(bytes, 0)?, Vec::new())),
     }
 }
 

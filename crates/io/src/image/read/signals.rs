@@ -1,9 +1,10 @@
-//! PNG and JPEG: signals of 8 or 16 bits. Of an animation comes the first frame.
+//! PNG, JPEG and WebP: signals of 8 or 16 bits. Of an animation comes the first frame.
 
 use std::io::Cursor;
 
 use eyebeam_core::texture::{Pixels, Samples};
 use image::codecs::jpeg::JpegDecoder;
+use image::codecs::webp::WebPDecoder;
 use image::{DynamicImage, ImageDecoder};
 use png::{BitDepth, Decoder, DecodingError, Limits, Reader, Transformations};
 
@@ -13,6 +14,7 @@ use crate::image::read::{DEFLATE, check_length, check_size};
 
 type Png<'b> = Reader<Cursor<&'b [u8]>>;
 type Jpeg<'b> = JpegDecoder<Cursor<&'b [u8]>>;
+type WebP<'b> = WebPDecoder<Cursor<&'b [u8]>>;
 
 /// What a PNG may keep beside its pixels.
 const PNG_MEMORY: usize = 256 << 20;
@@ -102,6 +104,41 @@ fn wrong_jpeg(e: image::ImageError) -> FileError {
     FileError::new(format!("cannot decode the JPEG: {e}"))
 }
 
+/// Of a WebP: the decoded bytes, twice, and what they are predicted from.
+const WEBP_BYTES_PER_PIXEL: u64 = 12;
+/// Pixels of one colour would take nothing; this is enough for a large picture of one.
+const WEBP_PIXELS_IN_BYTE: u64 = 1 << 16;
+
+/// Refused if the picture, and so many bytes more for each pixel, are more than is allowed.
+pub(super) fn decode_webp(bytes: &[u8], more: u64) -> Result<Pixels, FileError> {
+    let (decoder, _) = open_webp(bytes, more)?;
+    let (width, height) = decoder.dimensions();
+    let (channels, signals) = match DynamicImage::from_decoder(decoder).map_err(wrong_webp)? {
+        DynamicImage::ImageRgba8(color) => (4, color.into_raw()),
+        color => (3, color.into_rgb8().into_raw()),
+    };
+    let (channels, signals) = compact(channels, signals, u8::MAX);
+    pixels([width, height], channels, Samples::Byte(signals))
+}
+
+/// The memory that pixels take, by the header alone, and so many bytes more for each.
+pub(super) fn webp_size(bytes: &[u8], more: u64) -> Result<u64, FileError> {
+    open_webp(bytes, more).map(|(_, memory)| memory)
+}
+
+fn open_webp(bytes: &[u8], more: u64) -> Result<(WebP<'_>, u64), FileError> {
+    let decoder = WebPDecoder::new(Cursor::new(bytes)).map_err(wrong_webp)?;
+    let (width, height) = decoder.dimensions();
+    check_size(width.into(), height.into(), WEBP_BYTES_PER_PIXEL + more)?;
+    check_length(bytes, width.into(), height.into(), WEBP_PIXELS_IN_BYTE)?;
+    let memory = u64::from(width) * u64::from(height) * (u64::from(decoder.color_type().bytes_per_pixel()) + more);
+    Ok((decoder, memory))
+}
+
+fn wrong_webp(e: image::ImageError) -> FileError {
+    FileError::new(format!("cannot decode the WebP: {e}"))
+}
+
 #[cfg(test)]
 mod tests {
     use eyebeam_core::color::srgb_decode;
@@ -163,6 +200,25 @@ mod tests {
             let pixels = decode_png(&png(color, BitDepth::Eight, 2, &[], signals), 0).unwrap();
             assert!(*pixels.samples() == Samples::Byte(expected.to_vec()), "{signals:?}");
             assert_eq!(pixels.channels(), expected.len() / 2);
+        }
+    }
+
+    /// Without losses, as the encoder writes it.
+    #[test]
+    fn webp_is_the_same_as_png() {
+        use image::codecs::webp::WebPEncoder;
+        for (color, kind, signals) in [
+            (ColorType::Rgb, image::ExtendedColorType::Rgb8, &[9, 8, 7, 6, 5, 4][..]),
+            (ColorType::Rgba, image::ExtendedColorType::Rgba8, &[9, 8, 7, 255, 6, 5, 4, 3]),
+        ] {
+            let mut webp = Vec::new();
+            WebPEncoder::new_lossless(&mut webp).encode(signals, 2, 1, kind).unwrap();
+            let expected = decode_png(&png(color, BitDepth::Eight, 2, &[], signals), 0).unwrap();
+            assert!(decode_webp(&webp, 0).unwrap() == expected);
+            assert!(webp_size(&webp, 0).unwrap() >= expected.bytes() as u64);
+            for end in 0..webp.len() {
+                let _ = decode_webp(&webp[..end], 0).is_ok();
+            }
         }
     }
 }

@@ -1,5 +1,6 @@
 //! Models: what other programs write.
 
+mod draco;
 mod gltf;
 mod obj;
 mod stl;

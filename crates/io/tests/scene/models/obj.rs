@@ -8,7 +8,7 @@ use eyebeam_core::desc::SceneDesc;
 use eyebeam_core::film::Wrap;
 use eyebeam_core::material::{MaterialDesc, Principled};
 use eyebeam_core::shape::MeshData;
-use eyebeam_core::texture::{Encoding, ImageTexture, TextureDesc};
+use eyebeam_core::texture::{Channel, Encoding, ImageTexture, TextureDesc};
 use eyebeam_io::scene::{SceneFile, read};
 use eyebeam_io::{At, Error};
 use proptest::prelude::Rng as _;
@@ -253,6 +253,38 @@ fn pictures_are_loaded_with_their_options() {
     ] {
         assert!(said.contains(part), "{part}: {said}");
     }
+}
+
+/// Of `map_d` the alpha if there is any, and else, or if it is asked for, something of the colour.
+#[test]
+fn amounts_are_parts_of_pictures() {
+    let mut leaf = Vec::new();
+    let mut encoder = png::Encoder::new(&mut leaf, 1, 1);
+    encoder.set_color(png::ColorType::Rgba);
+    encoder.write_header().unwrap().write_image_data(&[9, 99, 9, 128]).unwrap();
+    let file = library(
+        "newmtl leaf\nmap_Kd leaf.png\nmap_d leaf.png\n\
+         newmtl grey\nmap_d grey.png\n\
+         newmtl green\nmap_d -imfchan g leaf.png\nmap_Kd -imfchan r leaf.png\n\
+         newmtl rough\nmap_Pr -imfchan m leaf.png\nmap_Pm leaf.png\n",
+        &[("leaf.png", &leaf), ("grey.png", &png())],
+    );
+    let takes_alpha = |name: &str| image(&file, name).alpha;
+    assert!(takes_alpha("leaf d") && !takes_alpha("leaf kd") && !takes_alpha("grey d") && !takes_alpha("green d"));
+    assert!(takes_alpha("rough pr") && !takes_alpha("rough pm"));
+    let TextureDesc::Channel(part) = &file.desc.texture["green d channel"] else { panic!() };
+    assert_eq!(part.channel, Channel::Green);
+    assert_eq!(said(&file), ["the option `-imfchan` is not read in line 8"]);
+}
+
+#[test]
+fn ambient_light_is_told_of_if_it_means_something() {
+    let file = library(
+        "newmtl a\nKa 1 1 1\nnewmtl b\nKa 0.2 0.2 0.2\nnewmtl c\nKa 0 0 0\nnewmtl d\nKa 0.3 0.4 0.5\nKd 0.3 0.4 0.5\n\
+         newmtl e\nKa 0.3 0.4 0.5\nKd 1 1 1\n",
+        &[],
+    );
+    assert_eq!(said(&file), ["`Ka` is not read in line 11"]);
 }
 
 #[test]

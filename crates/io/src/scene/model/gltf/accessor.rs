@@ -7,6 +7,7 @@ use std::collections::BTreeMap;
 use crate::error::FileError;
 use crate::memory::Memory;
 use crate::scene::model::gltf::document::{Accessor, Document, SparsePart};
+use crate::scene::model::gltf::draco::{self, Stream};
 use crate::scene::model::gltf::extensions::get;
 use crate::scene::model::gltf::meshopt::Compressed;
 
@@ -19,10 +20,12 @@ pub(super) struct Bytes {
     buffers: Vec<Vec<u8>>,
     /// Of the buffer views that were compressed.
     decoded: BTreeMap<usize, Vec<u8>>,
+    /// The meshes in buffer views.
+    streams: BTreeMap<usize, Stream>,
 }
 
 impl Bytes {
-    /// Decodes all buffer views that are compressed.
+    /// Decodes all buffer views that are compressed, and all meshes in them.
     pub(super) fn new(document: &Document, buffers: Vec<Vec<u8>>, memory: &Memory) -> Result<Self, FileError> {
         let compressed =
             document.buffer_views.iter().enumerate().filter_map(|(index, view)| {
@@ -33,7 +36,7 @@ impl Bytes {
             // What is told once is not decoded many times.
             left =
                 left.checked_sub(part.byte_length).ok_or_else(|| FileError::new("compressed buffer views overlap"))?;
-            memory.take((part.count as u64).saturating_mul(part.byte_stride as u64))?;
+            memory.take(part.most_bytes())?;
             let code =
                 buffers.get(part.buffer).and_then(|bytes| bytes.get(part.byte_offset..)?.get(..part.byte_length));
             let code = code.ok_or_else(|| FileError::new("it reaches beyond its buffer"));
@@ -42,7 +45,9 @@ impl Bytes {
             Ok((index, decoded.map_err(of)?))
         };
         let decoded = compressed.map(decode).collect::<Result<_, FileError>>()?;
-        Ok(Self { buffers, decoded })
+        let bytes = Self { buffers, decoded, streams: BTreeMap::new() };
+        let streams = draco::decode(&Buffers { document, bytes: &bytes, memory })?;
+        Ok(Self { streams, ..bytes })
     }
 
     /// Of all.
@@ -73,13 +78,13 @@ impl Buffers<'_> {
         })
     }
 
-    fn accessor(&self, index: usize) -> Result<&Accessor, FileError> {
-        self.document.accessors.get(index).ok_or_else(|| missing("accessor", index))
+    /// The mesh in a buffer view.
+    pub(super) fn stream(&self, index: usize) -> Result<&Stream, FileError> {
+        self.bytes.streams.get(&index).ok_or_else(|| missing("mesh in buffer view", index))
     }
 
-    /// Whether an accessor has no numbers of its own.
-    pub(super) fn is_empty(&self, index: usize) -> bool {
-        self.document.accessors.get(index).is_some_and(|accessor| accessor.buffer_view.is_none())
+    pub(super) fn accessor(&self, index: usize) -> Result<&Accessor, FileError> {
+        self.document.accessors.get(index).ok_or_else(|| missing("accessor", index))
     }
 
     /// Elements of up to N numbers; what there is less of is `rest`.
@@ -121,13 +126,7 @@ impl Buffers<'_> {
         let component = Component::of(accessor.component_type, index)?.size();
         let (size, count) = (components(&accessor.kind, index)?, accessor.count);
         let bytes_of_all = (count as u64).saturating_mul(size_of::<[T; N]>() as u64);
-        let element = |bytes: &[u8]| {
-            let mut element = [rest; N];
-            for (slot, bytes) in element.iter_mut().zip(bytes.chunks_exact(component).take(size)) {
-                *slot = number(bytes);
-            }
-            element
-        };
+        let element = |bytes: &[u8]| element(bytes, component, size, rest, &number);
         let mut elements = match accessor.buffer_view {
             Some(view) => {
                 let stride = self.document.buffer_views.get(view).and_then(|v| v.byte_stride).filter(|&s| s > 0);
@@ -192,6 +191,21 @@ fn strided(bytes: &[u8], stride: usize, size: usize, count: usize) -> Option<imp
         .then(|| (0..count).filter_map(move |i| bytes.get(i * stride..i * stride + size)))
 }
 
+/// Up to N of the first `size` numbers of so many bytes each; what there is less of is `rest`.
+pub(super) fn element<T: Copy, const N: usize>(
+    bytes: &[u8],
+    component: usize,
+    size: usize,
+    rest: T,
+    number: impl Fn(&[u8]) -> T,
+) -> [T; N] {
+    let mut element = [rest; N];
+    for (slot, bytes) in element.iter_mut().zip(bytes.chunks_exact(component).take(size)) {
+        *slot = number(bytes);
+    }
+    element
+}
+
 fn components(kind: &str, index: usize) -> Result<usize, FileError> {
     match kind {
         "SCALAR" => Ok(1),
@@ -206,7 +220,7 @@ fn components(kind: &str, index: usize) -> Result<usize, FileError> {
 
 /// The kind of a number.
 #[derive(Clone, Copy, PartialEq, Eq)]
-enum Component {
+pub(super) enum Component {
     I8,
     U8,
     I16,
@@ -228,7 +242,8 @@ impl Component {
         }
     }
 
-    fn size(self) -> usize {
+    /// In bytes.
+    pub(super) fn size(self) -> usize {
         match self {
             Self::I8 | Self::U8 => 1,
             Self::I16 | Self::U16 => 2,
@@ -237,13 +252,13 @@ impl Component {
     }
 
     /// As many bytes as the number has.
-    fn raw(bytes: &[u8]) -> u32 {
+    pub(super) fn raw(bytes: &[u8]) -> u32 {
         let mut word = [0; 4];
         word.iter_mut().zip(bytes).for_each(|(to, from)| *to = *from);
         u32::from_le_bytes(word)
     }
 
-    fn float(self, bytes: &[u8], normalized: bool) -> f32 {
+    pub(super) fn float(self, bytes: &[u8], normalized: bool) -> f32 {
         let raw = Self::raw(bytes);
         let (value, most) = match self {
             Self::Float => return f32::from_bits(raw),

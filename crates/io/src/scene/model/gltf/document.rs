@@ -197,6 +197,31 @@ pub(super) struct TextureTransform {
 pub(super) struct Texture {
     pub(super) sampler: Option<usize>,
     pub(super) source: Option<usize>,
+    pub(super) extensions: TextureExtensions,
+}
+
+impl Texture {
+    /// What it shows: a picture of an extension is the same as the one that is there for those who do not know it.
+    pub(super) fn picture(&self) -> Option<usize> {
+        let TextureExtensions { basisu, webp } = &self.extensions;
+        basisu.as_ref().or(webp.as_ref()).map_or(self.source, |other| other.source.or(self.source))
+    }
+}
+
+#[derive(Debug, Default, Deserialize)]
+#[serde(default)]
+pub(super) struct TextureExtensions {
+    #[serde(rename = "KHR_texture_basisu")]
+    pub(super) basisu: Option<OtherSource>,
+    #[serde(rename = "EXT_texture_webp")]
+    pub(super) webp: Option<OtherSource>,
+}
+
+/// `KHR_texture_basisu` and `EXT_texture_webp`: the picture of a texture in another format.
+#[derive(Debug, Default, Deserialize)]
+#[serde(default)]
+pub(super) struct OtherSource {
+    pub(super) source: Option<usize>,
 }
 
 #[derive(Debug, Default, Deserialize)]

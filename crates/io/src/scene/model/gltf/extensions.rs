@@ -13,6 +13,8 @@ use crate::warning::Warning;
 const READ: &[&str] = &[
     "EXT_mesh_gpu_instancing",
     "EXT_meshopt_compression",
+    "EXT_texture_webp",
+    "KHR_draco_mesh_compression",
     "KHR_lights_punctual",
     "KHR_materials_anisotropy",
     "KHR_materials_clearcoat",
@@ -27,16 +29,13 @@ const READ: &[&str] = &[
     "KHR_materials_unlit",
     "KHR_materials_volume",
     "KHR_mesh_quantization",
+    "KHR_texture_basisu",
     "KHR_texture_transform",
 ];
 
-/// Without these a mesh may still be read, from what the file has for those who do not know them; where it has nothing, that is
-/// an error of the mesh.
-const MAYBE: &[&str] = &["KHR_draco_mesh_compression"];
-
 /// Refuses what the file cannot be read without, and notes what is ignored.
 pub(super) fn check(document: &Document, warnings: &mut Vec<Warning>) -> Result<(), FileError> {
-    let is_known = |name: &&String| READ.contains(&name.as_str()) || MAYBE.contains(&name.as_str());
+    let is_known = |name: &&String| READ.contains(&name.as_str());
     if let Some(name) = document.extensions_required.iter().find(|name| !is_known(name)) {
         let hint = format!("export it without {name}");
         return Err(FileError::new(format!("the model needs the extension {name}, which is not read")).hint(hint));

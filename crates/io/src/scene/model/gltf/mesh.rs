@@ -9,6 +9,7 @@ use glam::{DAffine3, DMat3, DVec3};
 
 use crate::error::FileError;
 use crate::scene::model::gltf::accessor::Buffers;
+use crate::scene::model::gltf::attribute::{Attributes, Indices};
 use crate::scene::model::gltf::document::Primitive;
 
 /// How a mesh stands.
@@ -26,22 +27,16 @@ pub(super) fn read(
     primitive: &Primitive,
     pose: &Pose<'_>,
 ) -> Result<Option<MeshData>, FileError> {
-    const DRACO: &str = "KHR_draco_mesh_compression";
-    let Some(&position) = primitive.attributes.get("POSITION") else { return Ok(None) };
-    if primitive.extensions.contains_key(DRACO) && buffers.is_empty(position) {
-        let hint = "export the model without mesh compression";
-        return Err(FileError::new(format!("a mesh needs the extension {DRACO}, which is not read")).hint(hint));
-    }
     let mode = primitive.mode.unwrap_or(4);
-    if mode < 4 {
+    if mode < 4 || !primitive.attributes.contains_key("POSITION") {
         return Ok(None);
     }
-    let mut vertices = buffers.floats::<3>(position, 0.0)?;
+    let attributes = Attributes::new(buffers, primitive)?;
+    let mut vertices = attributes.floats::<3>("POSITION", 0.0)?.unwrap_or_default();
     let count = vertices.len();
-    let optional = |name: &str| primitive.attributes.get(name).copied();
-    let mut normals = optional("NORMAL").map(|i| buffers.floats::<3>(i, 0.0)).transpose()?.unwrap_or_default();
-    let uvs = optional("TEXCOORD_0").map(|i| buffers.floats::<2>(i, 0.0)).transpose()?.unwrap_or_default();
-    let colors = optional("COLOR_0").map(|i| buffers.floats::<3>(i, 0.0)).transpose()?.unwrap_or_default();
+    let mut normals = attributes.floats::<3>("NORMAL", 0.0)?.unwrap_or_default();
+    let uvs = attributes.floats::<2>("TEXCOORD_0", 0.0)?.unwrap_or_default();
+    let colors = attributes.floats::<3>("COLOR_0", 0.0)?.unwrap_or_default();
     for (name, length) in [("NORMAL", normals.len()), ("TEXCOORD_0", uvs.len()), ("COLOR_0", colors.len())] {
         if length != 0 && length != count {
             return Err(FileError::new(format!("there are {length} {name} for {count} vertices")));
@@ -53,7 +48,7 @@ pub(super) fn read(
     morph(buffers, &primitive.targets, pose.weights, &mut vertices, &mut normals)?;
     let mirrored = match pose.joints {
         Some(joints) => {
-            skin(buffers, &primitive.attributes, joints, &mut vertices, &mut normals)?;
+            skin(&attributes, joints, &mut vertices, &mut normals)?;
             false
         }
         None => {
@@ -61,7 +56,7 @@ pub(super) fn read(
             pose.to_world.matrix3.determinant() < 0.0
         }
     };
-    let mut triangles = triangles(buffers, primitive.indices, mode, count)?;
+    let mut triangles = triangles(&attributes, mode, count)?;
     if mirrored {
         triangles.iter_mut().for_each(|t| t.swap(1, 2));
     }
@@ -75,18 +70,8 @@ fn finite(number: f32) -> f32 {
     if number.is_finite() { number } else { 0.0 }
 }
 
-fn triangles(
-    buffers: &Buffers<'_>,
-    indices: Option<usize>,
-    mode: u32,
-    count: usize,
-) -> Result<Vec<[u32; 3]>, FileError> {
-    let indices: Vec<u32> = match indices {
-        Some(index) => buffers.numbers::<1>(index)?.into_iter().map(|[i]| i).collect(),
-        None => {
-            (0..u32::try_from(count).map_err(|_| FileError::new(format!("{count} vertices are too many")))?).collect()
-        }
-    };
+fn triangles(attributes: &Attributes<'_>, mode: u32, count: usize) -> Result<Vec<[u32; 3]>, FileError> {
+    let Indices { indices, mode } = attributes.indices(mode, count)?;
     if let Some(bad) = indices.iter().find(|&&i| i as usize >= count) {
         return Err(FileError::new(format!("a triangle names vertex {bad} of {count}")));
     }
@@ -150,17 +135,17 @@ fn double(v: [f32; 3]) -> DVec3 {
 }
 
 fn skin(
-    buffers: &Buffers<'_>,
-    attributes: &BTreeMap<String, usize>,
+    attributes: &Attributes<'_>,
     joints: &[DAffine3],
     vertices: &mut [[f32; 3]],
     normals: &mut [[f32; 3]],
 ) -> Result<(), FileError> {
     let mut sums = vec![(DAffine3::ZERO, 0.0); vertices.len()];
     for set in 0.. {
-        let [ids, weights] = ["JOINTS", "WEIGHTS"].map(|name| attributes.get(&format!("{name}_{set}")).copied());
+        let ids = attributes.numbers::<4>(&format!("JOINTS_{set}"))?;
+        let weights = attributes.floats::<4>(&format!("WEIGHTS_{set}"), 0.0)?;
         let (Some(ids), Some(weights)) = (ids, weights) else { break };
-        let parts = buffers.numbers::<4>(ids)?.into_iter().zip(buffers.floats::<4>(weights, 0.0)?);
+        let parts = ids.into_iter().zip(weights);
         for ((sum, total), (ids, weights)) in sums.iter_mut().zip(parts) {
             for (id, weight) in ids.into_iter().zip(weights.map(f64::from)).filter(|&(_, weight)| weight > 0.0) {
                 let joint = joints.get(id as usize);

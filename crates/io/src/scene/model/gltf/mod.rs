@@ -4,9 +4,11 @@
 
 mod accessor;
 mod animation;
+mod attribute;
 mod camera;
 mod container;
 mod document;
+mod draco;
 mod extensions;
 mod light;
 mod material;

@@ -15,7 +15,7 @@ use crate::image::{pixels_size, read_pixels_bytes};
 use crate::scene::model::files::Files;
 use crate::scene::model::gltf::accessor::{Buffers, missing};
 use crate::scene::model::gltf::container;
-use crate::scene::model::gltf::document::{Document, TextureInfo, TextureTransform};
+use crate::scene::model::gltf::document::{Document, Texture, TextureInfo, TextureTransform};
 use crate::warning::Warning;
 
 /// The pictures that the file's textures show, by their index; those that cannot be read are left out.
@@ -24,11 +24,18 @@ pub(super) struct Pictures(BTreeMap<usize, Arc<Pixels>>);
 impl Pictures {
     /// Decodes all at the same time.
     pub(super) fn read(buffers: &Buffers<'_>, files: Files<'_>, warnings: &mut Vec<Warning>) -> Self {
-        let mut sources: Vec<_> = buffers.document.textures.iter().filter_map(|texture| texture.source).collect();
+        let mut sources: Vec<_> = buffers.document.textures.iter().filter_map(Texture::picture).collect();
         sources.sort_unstable();
         sources.dedup();
+        // Those of the same bytes are one.
+        let mut firsts = BTreeMap::new();
+        let mut first_of = |&index: &usize| {
+            let picture = buffers.document.images.get(index);
+            (index, *firsts.entry(picture.map(|picture| (&picture.uri, picture.buffer_view))).or_insert(index))
+        };
+        let shared: Vec<_> = sources.iter().map(&mut first_of).filter(|(index, first)| index != first).collect();
         let mut encoded = Vec::new();
-        for index in sources {
+        for index in firsts.into_values() {
             let bytes = bytes(buffers, files, index).and_then(|bytes| {
                 buffers.memory.take(bytes.len() as u64 + pixels_size("", &bytes)?)?;
                 Ok(bytes)
@@ -53,6 +60,10 @@ impl Pictures {
                 }),
             }
         }
+        for (index, first) in shared {
+            let picture = pictures.get(&first).cloned();
+            pictures.extend(picture.map(|picture| (index, picture)));
+        }
         Self(pictures)
     }
 
@@ -66,9 +77,9 @@ impl Pictures {
         warnings: &mut Vec<Warning>,
     ) -> Option<ImageTexture> {
         let texture = document.textures.get(info.index)?;
-        let Some(index) = texture.source else {
+        let Some(index) = texture.picture() else {
             warnings
-                .push(Warning::new(format!("texture {} is left out: no picture of it is a PNG or JPEG", info.index)));
+                .push(Warning::new(format!("texture {} is left out: it has no picture of a known format", info.index)));
             return None;
         };
         let pixels = self.0.get(&index)?;

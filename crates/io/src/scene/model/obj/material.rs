@@ -11,7 +11,8 @@
 //! - `illum` 3 and 5 with a `Ks` brighter than `Kd`: metal of the colour `Ks`, polished if there is no `Ns`.
 //! - `illum` 4, 6, 7 and 9: clear by 1 − `d`; 6 and 7 all clear if `d` is 1 and `Kd` about black. `Tf` is the colour of
 //!   what goes through; without an index but 1 it is a sheet.
-//! - `d` else, and `map_d`: the share of the surface that is there ([`Mask`]).
+//! - `d` else, and `map_d`: the share of the surface that is there ([`Mask`]); of a picture its alpha, if it has any, as in Blender, and
+//!   else how bright it is, as in three.js.
 //! - `Ke`, `map_Ke`: radiance, on the side of the normal. What shines has no relief and no holes.
 //! - `bump`, `map_Bump`: heights, `-bm` centimetres from black to white; `norm`: normals as of OpenGL.
 //! - `Pm` metalness, `Ps` fuzz, `Pc` and `Pcr` coat and its roughness, `aniso` anisotropy; `map_Pr`, `map_Pm` and `map_Ps` take their
@@ -21,9 +22,9 @@ use eyebeam_core::color::{LUMENS_PER_WATT, Rgb};
 use eyebeam_core::film::Wrap;
 use eyebeam_core::material::{Bump, Mask, MaterialDesc, NormalMap, Principled};
 use eyebeam_core::names::Name;
-use eyebeam_core::texture::{Color, Encoding, ImageTexture, Mapping, Multiply, Scalar, TextureDesc};
+use eyebeam_core::texture::{ChannelOf, Color, Encoding, ImageTexture, Mapping, Multiply, Scalar, TextureDesc};
 
-use super::mtl::Mtl;
+use super::mtl::{Mtl, Part};
 use super::pictures::Pictures;
 use crate::scene::model::Model;
 use crate::warning::Warning;
@@ -39,8 +40,9 @@ pub(super) fn add(name: &str, mtl: &Mtl, pictures: &mut Pictures<'_>, model: &mu
     maker.extension(&mut principled);
     let shines = maker.emission(&mut principled);
     let normals = maker.picture("norm", Encoding::Linear);
-    let heights = maker.picture("bump", Encoding::Linear);
-    let opacity = maker.amount("d", if is_clear { 1.0 } else { maker.number("d", 1.0, 1.0) });
+    let heights = maker.amount("bump");
+    let opacity = if is_clear { 1.0 } else { maker.number("d", 1.0, 1.0) };
+    let opacity = maker.amount("d").unwrap_or(Scalar::Number(opacity));
     let mut layers = vec![MaterialDesc::Principled(principled)];
     let of = || Name::new("");
     if let Some(map) = normals {
@@ -51,7 +53,7 @@ pub(super) fn add(name: &str, mtl: &Mtl, pictures: &mut Pictures<'_>, model: &mu
         }));
     } else if let Some(height) = heights {
         let scale = 0.01 * mtl.maps.get("bump").map_or(1.0, |map| map.bump.clamp(-1e4, 1e4));
-        layers.push(MaterialDesc::Bump(Bump { of: of(), height: Scalar::Texture(Name::new(&height)), scale }));
+        layers.push(MaterialDesc::Bump(Bump { of: of(), height, scale }));
     }
     if opacity.number() != Some(1.0) {
         layers.push(MaterialDesc::Mask(Mask { of: of(), opacity }));
@@ -103,15 +105,19 @@ impl Maker<'_, '_> {
 
     /// The name of a picture as a texture.
     fn picture(&mut self, key: &str, encoding: Encoding) -> Option<String> {
+        let image = self.image(key, encoding)?;
+        Some(self.texture(key, TextureDesc::Image(image)))
+    }
+
+    fn image(&mut self, key: &str, encoding: Encoding) -> Option<ImageTexture> {
         let map = self.mtl.maps.get(key)?;
         let (path, pixels) = self.pictures.get(&self.mtl.folder, &map.file, &mut self.model.warnings)?;
-        let texture = ImageTexture {
+        Some(ImageTexture {
             encoding,
             wrap: if map.clamp { Wrap::Clamp } else { Wrap::Repeat },
             mapping: Mapping { scale: map.scale, offset: map.offset, ..Mapping::default() },
             ..ImageTexture::new(&path.display().to_string(), Some(pixels))
-        };
-        Some(self.texture(key, TextureDesc::Image(texture)))
+        })
     }
 
     fn texture(&mut self, key: &str, texture: TextureDesc) -> String {
@@ -123,10 +129,19 @@ impl Maker<'_, '_> {
         name
     }
 
-    /// A picture of amounts, or a number.
-    fn amount(&mut self, key: &str, number: f32) -> Scalar {
-        let picture = self.picture(key, Encoding::Linear);
-        picture.map_or(Scalar::Number(number), |name| Scalar::Texture(Name::new(&name)))
+    /// A picture of amounts.
+    fn amount(&mut self, key: &str) -> Option<Scalar> {
+        let mut image = self.image(key, Encoding::Linear)?;
+        let part = self.mtl.maps.get(key).and_then(|map| map.channel);
+        // Opaque pictures have lost their alpha.
+        let has_alpha = image.pixels.as_ref().is_some_and(|pixels| pixels.channels().is_multiple_of(2));
+        image.alpha = part == Some(Part::Alpha) || part.is_none() && key == "d" && has_alpha;
+        let mut name = Name::new(&self.texture(key, TextureDesc::Image(image)));
+        if let Some(Part::Color(channel)) = part {
+            let part = ChannelOf { input: Color::Texture(name), channel };
+            name = Name::new(&self.texture(&format!("{key} channel"), TextureDesc::Channel(part)));
+        }
+        Some(Scalar::Texture(name))
     }
 
     /// A picture times a colour; a black or a white one leaves it as it is.
@@ -222,8 +237,8 @@ impl Maker<'_, '_> {
             if self.mtl.numbers.contains_key(key) {
                 *part = Scalar::Number(self.number(key, 0.0, 1.0));
             }
-            if let Some(picture) = self.picture(map, Encoding::Linear) {
-                *part = Scalar::Texture(Name::new(&picture));
+            if let Some(picture) = self.amount(map) {
+                *part = picture;
             }
         }
     }

@@ -7,6 +7,8 @@ use std::collections::BTreeMap;
 use std::io::Cursor;
 use std::path::{Path, PathBuf};
 
+use eyebeam_core::texture::Channel;
+
 use super::parse;
 use crate::error::Error;
 use crate::scene::model::files::Files;
@@ -23,6 +25,8 @@ pub(super) struct Mtl {
     pub(super) numbers: BTreeMap<&'static str, f32>,
     /// By the keyword, in lower case and without `map_`.
     pub(super) maps: BTreeMap<&'static str, Map>,
+    /// `Ka`, and the line it is in.
+    ambient: Option<([f32; 3], usize)>,
     /// Folder of its file below that of the model.
     pub(super) folder: PathBuf,
 }
@@ -39,10 +43,23 @@ pub(super) struct Map {
     pub(super) clamp: bool,
     /// `-bm`
     pub(super) bump: f32,
+    /// `-imfchan`
+    pub(super) channel: Option<Part>,
+}
+
+/// The part of a picture that is an amount.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) enum Part {
+    Color(Channel),
+    Alpha,
 }
 
 const COLORS: [&str; 4] = ["Kd", "Ks", "Ke", "Tf"];
 const NUMBERS: [&str; 10] = ["Ns", "Ni", "d", "illum", "Pr", "Pm", "Ps", "Pc", "Pcr", "aniso"];
+/// Of exporters that have nothing to say.
+const USUAL_AMBIENT: [f32; 3] = [0.0, 0.2, 1.0];
+/// What pictures are of that are no amounts.
+const COLORED: [&str; 4] = ["kd", "ks", "ke", "norm"];
 /// Keywords of pictures, in lower case, and what they are of.
 const MAPS: [(&str, &str); 10] = [
     ("map_kd", "kd"),
@@ -69,8 +86,9 @@ pub(super) fn read(
     let mut lines = Lines::new(Box::new(Cursor::new(files.read(path)?)), &file, true)?;
     let folder = Path::new(&name.replace('\\', "/")).parent().map(Path::to_owned).unwrap_or_default();
     let mut current: Option<(String, Mtl)> = None;
-    let mut keep = |material: Option<(String, Mtl)>| {
+    let mut keep = |material: Option<(String, Mtl)>, skipped: &mut Skipped| {
         if let Some((name, mtl)) = material {
+            mtl.check_ambient(skipped);
             known.entry(name).or_insert(mtl);
         }
     };
@@ -81,14 +99,15 @@ pub(super) fn read(
             continue;
         }
         if keyword == "newmtl" {
-            keep(current.replace((rest.trim().to_owned(), Mtl { folder: folder.clone(), ..Mtl::default() })));
+            let next = (rest.trim().to_owned(), Mtl { folder: folder.clone(), ..Mtl::default() });
+            keep(current.replace(next), &mut skipped);
         } else if let Some((_, mtl)) = &mut current {
             mtl.line(keyword, rest.trim(), number, &mut skipped);
         } else {
             skipped.note("what stands before the first `newmtl` is not read", number);
         }
     }
-    keep(current);
+    keep(current, &mut skipped);
     Ok(skipped.warnings(name))
 }
 
@@ -105,13 +124,28 @@ impl Mtl {
             value().map(|clear| self.numbers.insert("d", 1.0 - clear)).is_some()
         } else if let Some((_, key)) = map {
             let map = Map::parse(rest, |option| skipped.note(&format!("the option `{option}` is not read"), number));
+            if map.as_ref().is_some_and(|map| map.channel.is_some()) && COLORED.contains(key) {
+                skipped.note("the option `-imfchan` is not read", number);
+            }
             map.map(|map| self.maps.insert(*key, map)).is_some()
+        } else if keyword == "Ka" {
+            let ambient = value().map(|r| [r, value().unwrap_or(r), value().unwrap_or(r)]);
+            self.ambient = ambient.map(|ambient| (ambient, number));
+            ambient.is_some()
         } else {
-            // What all programs write and none can use with light that is computed.
-            keyword == "Ka"
+            false
         };
         if !is_read {
             skipped.note(&format!("`{keyword}` is not read"), number);
+        }
+    }
+
+    /// Nearly all programs write `Ka`, and light that is computed has no use for it: only one that means something is told of.
+    fn check_ambient(&self, skipped: &mut Skipped) {
+        let Some((ambient, line)) = self.ambient else { return };
+        let is_usual = USUAL_AMBIENT.iter().any(|usual| ambient == [*usual; 3]);
+        if !is_usual && self.colors.get("Kd") != Some(&ambient) {
+            skipped.note("`Ka` is not read", line);
         }
     }
 }
@@ -137,7 +171,8 @@ const OPTIONS: [(&str, usize, bool); 14] = [
 impl Map {
     /// Options stand before the name, which may have spaces, and by some programs after it.
     fn parse(mut rest: &str, mut skip: impl FnMut(&str)) -> Option<Self> {
-        let mut map = Self { file: String::new(), scale: [1.0; 3], offset: [0.0; 3], clamp: false, bump: 1.0 };
+        let mut map =
+            Self { file: String::new(), scale: [1.0; 3], offset: [0.0; 3], clamp: false, bump: 1.0, channel: None };
         while !rest.is_empty() {
             let (word, after) = split(rest);
             let Some((option, most, is_number)) = OPTIONS.iter().find(|(option, ..)| *option == word) else {
@@ -171,6 +206,14 @@ impl Map {
             "-o" => self.offset.iter_mut().zip(numbers).for_each(|(to, number)| *to = number),
             "-bm" => self.bump = numbers.next().unwrap_or(1.0),
             "-clamp" => self.clamp = values == ["on"],
+            "-imfchan" => match values {
+                ["r"] => self.channel = Some(Part::Color(Channel::Red)),
+                ["g"] => self.channel = Some(Part::Color(Channel::Green)),
+                ["b"] => self.channel = Some(Part::Color(Channel::Blue)),
+                ["l"] => self.channel = Some(Part::Color(Channel::Luminance)),
+                ["m"] => self.channel = Some(Part::Alpha),
+                _ => skip(option),
+            },
             other => skip(other),
         }
     }
