@@ -1,6 +1,7 @@
 //! How much memory the files of a scene may take.
 
-use std::cell::Cell;
+use std::sync::atomic::AtomicU64;
+use std::sync::atomic::Ordering::Relaxed;
 
 use crate::error::FileError;
 
@@ -11,13 +12,13 @@ const USUAL: u64 = 16 << 30;
 #[derive(Debug)]
 pub(crate) struct Memory {
     allowed: u64,
-    taken: Cell<u64>,
+    taken: AtomicU64,
 }
 
 impl Memory {
     /// Of so many bytes, or of as many as are usual.
     pub(crate) fn new(allowed: Option<u64>) -> Self {
-        Self { allowed: allowed.unwrap_or(USUAL), taken: Cell::new(0) }
+        Self { allowed: allowed.unwrap_or(USUAL), taken: AtomicU64::new(0) }
     }
 
     /// Counts memory that is about to be used.
@@ -26,7 +27,7 @@ impl Memory {
     /// If there is not so much left; then it is not counted.
     pub(crate) fn take(&self, bytes: u64) -> Result<(), FileError> {
         self.check(bytes)?;
-        self.taken.set(self.taken.get() + bytes);
+        self.taken.fetch_add(bytes, Relaxed);
         Ok(())
     }
 
@@ -35,7 +36,7 @@ impl Memory {
     /// # Errors
     /// If there is not so much left.
     pub(crate) fn check(&self, bytes: u64) -> Result<(), FileError> {
-        let needed = self.taken.get().saturating_add(bytes);
+        let needed = self.taken.load(Relaxed).saturating_add(bytes);
         if needed <= self.allowed {
             return Ok(());
         }
@@ -46,7 +47,7 @@ impl Memory {
 
     /// Bytes that were counted.
     pub(crate) fn taken(&self) -> u64 {
-        self.taken.get()
+        self.taken.load(Relaxed)
     }
 }
 

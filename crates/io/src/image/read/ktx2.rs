@@ -7,14 +7,16 @@ use basisu::{DecodeFlags, TargetFormat, Transcoder};
 use eyebeam_core::texture::{Pixels, Samples};
 
 use crate::error::{At, FileError};
-use crate::image::read::check_size;
 use crate::image::read::pixels::{compact, pixels};
+use crate::image::read::{check_length, check_size};
 
 /// What each file begins with.
 pub(super) const MAGIC: [u8; 12] = *b"\xabKTX 20\xbb\r\n\x1a\n";
 
 /// Bytes of the decoded pixel, and of what is made on the way.
 const BYTES_PER_PIXEL: u64 = 6;
+/// Runs of equal blocks of 16 pixels, compressed once more.
+const PIXELS_IN_BYTE: u64 = 1 << 14;
 /// The decoder's limit, too.
 const MOST_LEVELS: u32 = 16;
 
@@ -60,6 +62,7 @@ fn open(bytes: &[u8], more: u64) -> Result<Header, FileError> {
         return Err(FileError::new("the KTX2 is no flat picture"));
     }
     check_size(width.into(), height.into(), BYTES_PER_PIXEL + more)?;
+    check_length(bytes, width.into(), height.into(), PIXELS_IN_BYTE)?;
     let [compression, descriptor, length] = file.words(44)?;
     file.within(descriptor.into(), length.into())?;
     // What the decoder reads of a description of one or two kinds of samples.

@@ -106,6 +106,8 @@ fn wrong_jpeg(e: image::ImageError) -> FileError {
 
 /// Of a WebP: the decoded bytes, twice, and what they are predicted from.
 const WEBP_BYTES_PER_PIXEL: u64 = 12;
+/// Pixels of one colour would take nothing; this is enough for a large picture of one.
+const WEBP_PIXELS_IN_BYTE: u64 = 1 << 16;
 
 /// Refused if the picture, and so many bytes more for each pixel, are more than is allowed.
 pub(super) fn decode_webp(bytes: &[u8], more: u64) -> Result<Pixels, FileError> {
@@ -128,6 +130,7 @@ fn open_webp(bytes: &[u8], more: u64) -> Result<(WebP<'_>, u64), FileError> {
     let decoder = WebPDecoder::new(Cursor::new(bytes)).map_err(wrong_webp)?;
     let (width, height) = decoder.dimensions();
     check_size(width.into(), height.into(), WEBP_BYTES_PER_PIXEL + more)?;
+    check_length(bytes, width.into(), height.into(), WEBP_PIXELS_IN_BYTE)?;
     let memory = u64::from(width) * u64::from(height) * (u64::from(decoder.color_type().bytes_per_pixel()) + more);
     Ok((decoder, memory))
 }

@@ -36,7 +36,7 @@ impl Bytes {
             // What is told once is not decoded many times.
             left =
                 left.checked_sub(part.byte_length).ok_or_else(|| FileError::new("compressed buffer views overlap"))?;
-            memory.take((part.count as u64).saturating_mul(part.byte_stride as u64))?;
+            memory.take(part.most_bytes())?;
             let code =
                 buffers.get(part.buffer).and_then(|bytes| bytes.get(part.byte_offset..)?.get(..part.byte_length));
             let code = code.ok_or_else(|| FileError::new("it reaches beyond its buffer"));

@@ -14,12 +14,14 @@ use crate::error::FileError;
 use crate::scene::model::gltf::accessor::{Buffers, Component, element};
 use crate::scene::model::gltf::document::Primitive;
 
-/// Triangles of all compressed meshes of a file.
+/// Triangles of all compressed meshes of a file. To decode one takes some 70 bytes besides its vertices.
 const MOST_TRIANGLES: usize = 1 << 25;
-/// What it takes to decode one, besides its vertices.
-const BYTES_PER_TRIANGLE: usize = 70;
 /// Bytes that an attribute of a vertex can have: four numbers of four.
 const MOST_BYTES: usize = 16;
+/// The most triangles that a byte can stand for.
+const MOST_IN_BYTE: usize = 1024;
+/// Bytes that decoding takes for a triangle.
+const TRIANGLE: u64 = 70;
 /// Attributes that a stream may have besides those that are named.
 const MORE_ATTRIBUTES: usize = 4;
 
@@ -71,21 +73,16 @@ impl Size {
         }
     }
 
-    /// What decoding takes at most.
+    /// Of vertices, at most.
     fn bytes(self) -> u64 {
-        (self.decoded() + self.triangles.saturating_mul(BYTES_PER_TRIANGLE)) as u64
-    }
-
-    fn decoded(self) -> usize {
-        self.vertices.saturating_mul(MOST_BYTES * (self.attributes + MORE_ATTRIBUTES))
+        (self.vertices as u64).saturating_mul((MOST_BYTES * (self.attributes + MORE_ATTRIBUTES)) as u64)
     }
 
     fn limits(self) -> DecodeLimits {
-        let bytes = self.decoded();
         DecodeLimits::default()
             .with_max_faces(self.triangles as u64)
             .with_max_points(self.vertices as u64)
-            .with_max_decoded_bytes(bytes as u64)
+            .with_max_decoded_bytes(self.bytes())
     }
 }
 
@@ -104,12 +101,17 @@ pub(super) fn decode(buffers: &Buffers<'_>) -> Result<BTreeMap<usize, Stream>, F
         let message = format!("the compressed meshes have {triangles} triangles, and {MOST_TRIANGLES} are allowed");
         return Err(FileError::new(message).hint("export the model without mesh compression"));
     }
+    for (view, size) in &sizes {
+        let length = buffers.view(*view)?.len();
+        if size.triangles > length.saturating_mul(MOST_IN_BYTE) {
+            let message = format!("buffer view {view} is too short for a mesh of {} triangles", size.triangles);
+            return Err(FileError::new(message));
+        }
+        buffers.memory.take(size.bytes().saturating_add(TRIANGLE * size.triangles as u64))?;
+    }
     let of = |view: usize| move |e: FileError| FileError { message: format!("buffer view {view}: {}", e.message), ..e };
-    buffers.memory.check(sizes.values().fold(0, |sum: u64, size| sum.saturating_add(size.bytes())))?;
-    let codes = sizes.into_iter().map(|(view, size)| Ok((view, size, buffers.view(view)?)));
-    let codes = codes.collect::<Result<Vec<_>, FileError>>()?;
-    let stream = |(view, size, code): (usize, Size, &[u8])| Ok((view, Stream::decode(code, size).map_err(of(view))?));
-    codes.into_par_iter().map(stream).collect()
+    let stream = |(view, size): (usize, Size)| Ok((view, Stream::decode(buffers.view(view)?, size).map_err(of(view))?));
+    sizes.into_par_iter().map(stream).collect()
 }
 
 /// A mesh that was compressed.

@@ -27,8 +27,15 @@ impl Pictures {
         let mut sources: Vec<_> = buffers.document.textures.iter().filter_map(Texture::picture).collect();
         sources.sort_unstable();
         sources.dedup();
+        // Those of the same bytes are one.
+        let mut firsts = BTreeMap::new();
+        let mut first_of = |&index: &usize| {
+            let picture = buffers.document.images.get(index);
+            (index, *firsts.entry(picture.map(|picture| (&picture.uri, picture.buffer_view))).or_insert(index))
+        };
+        let shared: Vec<_> = sources.iter().map(&mut first_of).filter(|(index, first)| index != first).collect();
         let mut encoded = Vec::new();
-        for index in sources {
+        for index in firsts.into_values() {
             let bytes = bytes(buffers, files, index).and_then(|bytes| {
                 buffers.memory.take(bytes.len() as u64 + pixels_size("", &bytes)?)?;
                 Ok(bytes)
@@ -52,6 +59,10 @@ impl Pictures {
                     ..Warning::new(format!("picture {index} is left out: {}", e.message))
                 }),
             }
+        }
+        for (index, first) in shared {
+            let picture = pictures.get(&first).cloned();
+            pictures.extend(picture.map(|picture| (index, picture)));
         }
         Self(pictures)
     }
