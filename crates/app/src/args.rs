@@ -14,7 +14,7 @@ use eyebeam_core::integrator::IntegratorKind;
 use eyebeam_io::scene::Override;
 
 use look::LookArgs;
-pub(crate) use model::{EnvironmentArg, ModelArgs, SetupArgs};
+pub(crate) use model::{CameraArg, EnvironmentArg, ModelArgs, SetupArgs};
 
 /// Photorealistic pictures by backward ray tracing.
 #[derive(Debug, Parser)]
@@ -32,6 +32,8 @@ pub(crate) enum Command {
     Develop(DevelopArgs),
     /// Report every problem of a scene without rendering it
     Check(CheckArgs),
+    /// Tell what is in a scene or a model
+    Info(InfoArgs),
     /// Print the JSON Schema of scene files, for editors
     Schema,
     /// Make the figures and measurements of a study
@@ -129,10 +131,6 @@ pub(crate) struct DevelopArgs {
     #[arg(short, long)]
     pub(crate) quiet: bool,
     #[command(flatten)]
-    pub(crate) model: ModelArgs,
-    #[command(flatten)]
-    pub(crate) setup: SetupArgs,
-    #[command(flatten)]
     pub(crate) look: LookArgs,
 }
 
@@ -148,6 +146,20 @@ pub(crate) struct CheckArgs {
     /// Take warnings about the scene for errors
     #[arg(long)]
     pub(crate) strict: bool,
+}
+
+#[derive(Debug, ClapArgs)]
+pub(crate) struct InfoArgs {
+    /// Scene file (.toml) or model (.gltf, .glb, .obj, .ply, .stl); - reads a scene from standard input
+    pub(crate) file: PathBuf,
+    /// Print it as one JSON object
+    #[arg(long)]
+    pub(crate) json: bool,
+    #[command(flatten)]
+    pub(crate) model: ModelArgs,
+    /// Change a value of the scene, as in -D camera.vfov=30
+    #[arg(short = 'D', value_name = "KEY=VALUE", value_parser = setting)]
+    pub(crate) set: Vec<Override>,
 }
 
 #[derive(Debug, ClapArgs)]

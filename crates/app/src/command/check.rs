@@ -4,11 +4,12 @@ use eyebeam_core::shape::MeshDesc;
 use eyebeam_io::scene::read_with;
 
 use crate::args::CheckArgs;
+use crate::command::report::{self, Talk};
 use crate::error::Error;
 use crate::progress::say;
 
 pub(super) fn run(args: &CheckArgs) -> Result<(), Error> {
-    let desc = super::told(read_with(&args.scene, &args.model.options(&args.set))?, args.strict, false)?.desc;
+    let desc = report::say_of(read_with(&args.scene, &args.model.options(&args.set))?, args.strict, Talk::All)?.desc;
     let shapes = &desc.shape;
     let triangles: usize = shapes.mesh.iter().map(MeshDesc::triangle_count).sum();
     say(&format!(

@@ -7,12 +7,12 @@ use eyebeam_core::setup::{Assumed, Setup, Surroundings};
 use eyebeam_io::image::read_image;
 use eyebeam_io::scene::SceneFile;
 
-use crate::args::{EnvironmentArg, SetupArgs};
+use crate::args::{CameraArg, EnvironmentArg, SetupArgs};
 use crate::error::Error;
 
 /// Adds it, as the command line says; what could not be kept of a picture goes to the warnings.
 pub(super) fn complete(
-    SceneFile { desc, warnings, given }: &mut SceneFile,
+    SceneFile { desc, warnings, given, .. }: &mut SceneFile,
     args: &SetupArgs,
 ) -> Result<Assumed, Error> {
     let surroundings = match &args.env {
@@ -27,6 +27,6 @@ pub(super) fn complete(
             Surroundings::Image(ImageEnvironment { file, rotation: 0.0, scale: 1.0, image })
         }
     };
-    let setup = Setup { own_camera: args.camera.is_some(), surroundings, ground: args.wants_ground() };
+    let setup = Setup { own_camera: args.camera == Some(CameraArg::Auto), surroundings, ground: args.wants_ground() };
     Ok(setup.complete(desc, *given))
 }

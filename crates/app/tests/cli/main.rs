@@ -6,9 +6,12 @@ mod develop;
 mod examples;
 mod files;
 mod gallery;
+mod info;
+mod made;
 mod models;
 mod output;
 mod pictures;
+mod report;
 mod selftest;
 #[cfg(unix)]
 mod signals;

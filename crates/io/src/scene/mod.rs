@@ -1,6 +1,7 @@
 //! Scene files.
 
 mod assets;
+mod contents;
 mod explain;
 mod merge;
 mod model;
@@ -15,9 +16,10 @@ use std::path::Path;
 use eyebeam_core::desc::SceneDesc;
 use eyebeam_core::setup::Given;
 
-use crate::error::Error;
+use crate::error::{Diagnostic, Error};
 use crate::warning::Warning;
 
+pub use contents::{Animation, Contents, NamedCamera};
 pub use model::{MODEL_FORMATS, ModelFormat, Up};
 
 /// A scene as it was read, with all the files that it names.
@@ -29,6 +31,8 @@ pub struct SceneFile {
     pub warnings: Vec<Warning>,
     /// What it says of camera and light; a scene file says everything.
     pub given: Given,
+    /// What else there is in the file.
+    pub contents: Contents,
 }
 
 /// How scenes are read.
@@ -42,6 +46,12 @@ pub struct ReadOptions<'a> {
     pub animation: Option<&'a str>,
     /// When, seconds from its start.
     pub at: f32,
+    /// The scene of a model, by its name or its number from 0; the one that the file says if none is said.
+    pub scene: Option<&'a str>,
+    /// The camera of a model, by its name or its number from 0; the first if none is said.
+    pub camera: Option<&'a str>,
+    /// Whether a model may name files outside of its folder.
+    pub allow_outside: bool,
 }
 
 /// A setting from outside the file, `key.key=value`: stronger than what the file says.
@@ -71,8 +81,28 @@ pub fn read(path: &Path, overrides: &[Override]) -> Result<SceneFile, Error> {
 pub fn read_with(path: &Path, options: &ReadOptions<'_>) -> Result<SceneFile, Error> {
     match model::format_of(path) {
         Some(format) => model::read(format, path, options),
-        None => toml::read(source::Sources::load(path)?, options.overrides),
+        None => {
+            refuse_choices(options)?;
+            let mut file = toml::read(source::Sources::load(path)?, options.overrides)?;
+            if options.up.is_some() {
+                file.warnings.push(Warning::new("scene files say what is up: `--up` is not used"));
+            }
+            Ok(file)
+        }
     }
+}
+
+/// A scene file has nothing to choose.
+fn refuse_choices(options: &ReadOptions<'_>) -> Result<(), Error> {
+    let ReadOptions { scene, camera, animation, .. } = *options;
+    let choices = [("scene", scene), ("camera", camera), ("animation", animation)];
+    let refused = choices.into_iter().filter_map(|(kind, wanted)| {
+        let message =
+            format!("there is no {kind} `{}`: this is a scene file, and `--{kind}` chooses in models", wanted?);
+        Some(Diagnostic { message, place: None, hint: Some(format!("leave `--{kind}` out")), unreadable: false })
+    });
+    let refused: Vec<_> = refused.collect();
+    if refused.is_empty() { Ok(()) } else { Err(Error::Scene(refused)) }
 }
 
 /// Reads and checks a scene from text; `name` stands for the file in errors. It has no folder: it can

@@ -21,7 +21,7 @@ use crate::scene::explain::{
 use crate::scene::merge::{self, Table};
 use crate::scene::nesting::{self, MAX_DEPTH};
 use crate::scene::source::{Problem, Sources, into_error, into_warnings};
-use crate::scene::{Override, SceneFile};
+use crate::scene::{Contents, Override, SceneFile};
 
 /// How many mistakes are looked for: each costs a walk through the scene, so fewer in long ones.
 fn most_problems(length: usize) -> usize {
@@ -45,7 +45,8 @@ pub(super) fn read(mut sources: Sources, overrides: &[Override]) -> Result<Scene
     }
     let Reader { problems, warnings, .. } = reader;
     if problems.is_empty() {
-        Ok(SceneFile { desc, warnings: into_warnings(warnings), given: Given::ALL })
+        let contents = Contents { format: "scene", ..Contents::default() };
+        Ok(SceneFile { desc, warnings: into_warnings(warnings), given: Given::ALL, contents })
     } else {
         Err(into_error(problems))
     }

@@ -26,8 +26,9 @@ use aov::Aovs;
 use stats::{Done, Phases, Provenance, Stats};
 
 use crate::args::RenderArgs;
+use crate::command::report::{self, Talk};
 use crate::command::target::Target;
-use crate::command::{is_standard, setup, told, write};
+use crate::command::{is_standard, setup, write};
 use crate::error::Error;
 use crate::progress::{Progress, State, duration, say};
 use crate::signals::Signals;
@@ -36,7 +37,7 @@ pub(super) fn run(args: &RenderArgs) -> Result<(), Error> {
     let mut target = target(args)?;
     let mut phases = Phases::default();
     let clock = Instant::now();
-    let (SceneFile { desc, warnings, given }, Assumed { what, is_studio }) = describe(args)?;
+    let (SceneFile { desc, warnings, given, .. }, Assumed { what, is_studio }) = describe(args)?;
     if !what.is_empty() && !args.quiet {
         say(&format!("made up: {}", what.join(", ")));
     }
@@ -103,7 +104,7 @@ fn describe(args: &RenderArgs) -> Result<(SceneFile, Assumed), Error> {
     let named = args.integrator.and_then(|kind| IntegratorKind::NAMES.iter().find(|(_, named)| *named == kind));
     settings
         .extend(named.map(|(name, _)| Override { path: "render.integrator".to_owned(), value: (*name).to_owned() }));
-    let mut file = read_with(&args.scene, &args.model.options(&settings))?;
+    let mut file = read_with(&args.scene, &args.setup.options(&args.model, &settings))?;
     let render = &mut file.desc.render;
     (render.width, render.height) = args.resolution.unwrap_or((render.width, render.height));
     render.spp = args.spp.unwrap_or(render.spp);
@@ -112,7 +113,7 @@ fn describe(args: &RenderArgs) -> Result<(SceneFile, Assumed), Error> {
     render.transparent |= args.transparent;
     render.clamp = args.clamp.unwrap_or(render.clamp);
     let assumed = setup::complete(&mut file, &args.setup)?;
-    Ok((told(file, args.strict, args.quiet)?, assumed))
+    Ok((report::say_of(file, args.strict, Talk::new(args.quiet, args.verbose))?, assumed))
 }
 
 /// Film and picture, what the lens needs for each pixel, and the encoded file.

@@ -3,12 +3,13 @@
 use eyebeam_core::desc::RenderDesc;
 use eyebeam_core::film::{ErrorEstimate, Film, SampleCounts};
 use eyebeam_core::look::Look;
-use eyebeam_io::{Place, Warning};
+use eyebeam_io::Warning;
 use serde::Serialize;
 
 use crate::args::RenderArgs;
 use crate::command::render::Described;
 use crate::command::render::aov::About;
+use crate::command::report::{self, Told};
 use crate::limits::peak_memory;
 
 /// What made a picture; enough to make the same bits again.
@@ -107,8 +108,9 @@ pub(super) struct Stats<'a> {
     rays_per_s: f64,
     peak_rss_bytes: Option<u64>,
     threads: usize,
-    warnings: Vec<String>,
-    /// The last one; those before have been told before the render.
+    /// What was ignored or approximated, and what is hardly meant.
+    warnings: Vec<Told<'a>>,
+    /// A word about samples that do not count; the others have been told before the render.
     #[serde(skip)]
     dropped_warning: Option<String>,
 }
@@ -117,7 +119,7 @@ impl<'a> Stats<'a> {
     pub(super) fn new(
         provenance: Provenance<'a>,
         look: Option<&'a Look>,
-        warnings: &[Warning],
+        warnings: &'a [Warning],
         phases: &Phases,
         work: &Done,
     ) -> Self {
@@ -136,7 +138,7 @@ impl<'a> Stats<'a> {
             rays_per_s: rays as f64 / phases.render,
             peak_rss_bytes: peak_memory(),
             threads,
-            warnings: warnings.iter().map(line).chain(dropped_warning.clone()).collect(),
+            warnings: report::told(warnings),
             dropped_warning,
         }
     }
@@ -152,13 +154,5 @@ impl<'a> Stats<'a> {
 
     pub(super) fn to_json(&self) -> String {
         serde_json::to_string_pretty(self).unwrap_or_default() + "\n"
-    }
-}
-
-/// `scene.toml:3:8: message`
-fn line(Warning { message, place, .. }: &Warning) -> String {
-    match place {
-        Some(Place { file, line, column }) => format!("{file}:{line}:{column}: {message}"),
-        None => message.clone(),
     }
 }

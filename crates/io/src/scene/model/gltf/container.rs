@@ -10,7 +10,7 @@ use base64::engine::general_purpose::STANDARD;
 
 use crate::error::{At, FileError};
 use crate::file;
-use crate::scene::model::folder;
+use crate::scene::model::folder::Folder;
 
 /// The JSON text and the bytes behind it in a file.
 pub(super) struct Container<'a> {
@@ -52,14 +52,14 @@ impl<'a> Container<'a> {
 }
 
 /// The bytes that a URI names, in a file of a folder or below.
-pub(super) fn resolve(uri: &str, folder: &Path) -> Result<Vec<u8>, FileError> {
+pub(super) fn resolve(uri: &str, folder: &Folder) -> Result<Vec<u8>, FileError> {
     if let Some(data) = uri.strip_prefix("data:") {
         let Some((_, data)) = data.split_once(";base64,") else {
             return Err(FileError::new("a data URI is not in base64"));
         };
         return STANDARD.decode(data.trim_end()).map_err(|e| FileError::new(format!("a data URI is damaged: {e}")));
     }
-    let path = folder::below(folder, Path::new(&*decode(uri)));
+    let path = folder.find(Path::new(&*decode(uri)));
     let bytes = path.and_then(|path| Ok(file::read(&path)?));
     bytes.map_err(|e| FileError { message: format!("`{uri}` is not read: {}", e.message), ..e })
 }
@@ -93,11 +93,12 @@ mod tests {
 
     #[test]
     fn uris_are_decoded() {
+        let folder = Folder::of(Path::new("a.glb"), false);
         assert_eq!(decode("a%20b%2Fc%zz%4"), "a b/c%zz%4");
-        assert_eq!(resolve("data:application/octet-stream;base64,AQID", Path::new("")).unwrap(), [1, 2, 3]);
-        assert!(resolve("data:text/plain,abc", Path::new("")).is_err());
+        assert_eq!(resolve("data:application/octet-stream;base64,AQID", &folder).unwrap(), [1, 2, 3]);
+        assert!(resolve("data:text/plain,abc", &folder).is_err());
         // The name is looked at after that.
-        let error = resolve("..%2Fa.bin", Path::new(".")).unwrap_err();
+        let error = resolve("..%2Fa.bin", &folder).unwrap_err();
         assert_eq!(error.message, "`..%2Fa.bin` is not read: its name leads out of the folder of the model");
     }
 }

@@ -30,9 +30,10 @@ use self::mesh::Pose;
 use self::texture::Pictures;
 use crate::error::{At, Error, FileError};
 use crate::file;
-use crate::scene::ReadOptions;
 use crate::scene::model::Model;
-use crate::scene::model::folder;
+use crate::scene::model::choose::choose;
+use crate::scene::model::folder::Folder;
+use crate::scene::{Contents, ReadOptions};
 use crate::warning::Warning;
 
 /// Triangles of all meshes where they stand.
@@ -41,10 +42,10 @@ const MOST_TRIANGLES: usize = 100_000_000;
 pub(super) fn read(path: &Path, options: &ReadOptions<'_>) -> Result<Model, Error> {
     let bytes = file::read(path)?;
     let name = path.display().to_string();
-    read_bytes(&name, &bytes, folder::of(path), options).map_err(|e| e.of(&name))
+    read_bytes(&name, &bytes, &Folder::of(path, options.allow_outside), options).map_err(|e| e.of(&name))
 }
 
-fn read_bytes(name: &str, bytes: &[u8], folder: &Path, options: &ReadOptions<'_>) -> Result<Model, FileError> {
+fn read_bytes(name: &str, bytes: &[u8], folder: &Folder, options: &ReadOptions<'_>) -> Result<Model, FileError> {
     let Container { json, bytes } = Container::open(bytes)?;
     let mut document: Document =
         serde_json::from_slice(json).map_err(|e| FileError::new(e.to_string()).at(At::Line(e.line())))?;
@@ -59,12 +60,20 @@ fn read_bytes(name: &str, bytes: &[u8], folder: &Path, options: &ReadOptions<'_>
     let buffers = Buffers { document: &document, bytes: &bytes };
     let pictures = Pictures::read(&buffers, folder, &mut model.warnings);
     let mut materials = Materials::new(&document, &pictures, name);
-    let placed = node::in_world(&document, document.scene.unwrap_or(0))?;
+    let scene = scene(&document, options.scene, &mut model.warnings)?;
+    let placed = node::in_world(&document, scene)?;
+    model.contents = Contents {
+        generator: document.asset.generator.clone(),
+        scenes: document.scenes.iter().map(|scene| scene.name.clone()).collect(),
+        scene: Some(scene),
+        animations: animation::all(&buffers),
+        ..Contents::default()
+    };
     let in_world: BTreeMap<usize, DAffine3> = placed.iter().copied().collect();
     let (mut triangles, mut skipped) = (0, 0);
     for &(index, to_world) in &placed {
         let Some(node) = document.nodes.get(index) else { continue };
-        camera::read(&document, node, &to_world, &mut model)?;
+        camera::read(&document, node, &to_world, &mut model);
         light::read(&document, node, &to_world, &mut model)?;
         let Some(mesh) = node.mesh else { continue };
         let mesh = document.meshes.get(mesh).ok_or_else(|| missing("mesh", mesh))?;
@@ -99,6 +108,21 @@ fn read_bytes(name: &str, bytes: &[u8], folder: &Path, options: &ReadOptions<'_>
     Ok(model)
 }
 
+/// The scene that is wanted, or that the file says; of others that nobody asked for there is a warning.
+fn scene(document: &Document, wanted: Option<&str>, warnings: &mut Vec<Warning>) -> Result<usize, FileError> {
+    if let Some(wanted) = wanted {
+        return choose("scene", wanted, document.scenes.iter().map(|scene| scene.name.as_str()));
+    }
+    let scene = document.scene.unwrap_or(0);
+    if document.scenes.len() > 1 {
+        let other = usize::from(scene == 0);
+        let message = format!("of {} scenes number {scene} is read alone", document.scenes.len());
+        let hint = Some(format!("`--scene {other}` reads another"));
+        warnings.push(Warning { hint, ..Warning::new(message) });
+    }
+    Ok(scene)
+}
+
 /// Moves nodes to where an animation has them; of one that nobody asked for there is a warning.
 fn pose(
     document: &mut Document,
@@ -122,7 +146,7 @@ fn pose(
 }
 
 /// The bytes of all buffers; the first may be those behind the JSON.
-fn load(document: &Document, mut behind: Option<&[u8]>, folder: &Path) -> Result<Vec<Vec<u8>>, FileError> {
+fn load(document: &Document, mut behind: Option<&[u8]>, folder: &Folder) -> Result<Vec<Vec<u8>>, FileError> {
     let mut buffers = Vec::new();
     for (i, buffer) in document.buffers.iter().enumerate() {
         let bytes = match (&buffer.uri, behind.take()) {

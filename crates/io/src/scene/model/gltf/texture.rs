@@ -4,7 +4,6 @@
 //! other numbers. A turn after uneven scales cannot be said in them, and is reported.
 
 use std::collections::BTreeMap;
-use std::path::Path;
 use std::sync::Arc;
 
 use eyebeam_core::film::Wrap;
@@ -14,6 +13,7 @@ use rayon::prelude::*;
 use crate::error::FileError;
 use crate::image::{pixels_size, read_pixels_bytes};
 use crate::scene::assets::MAX_BYTES;
+use crate::scene::model::folder::Folder;
 use crate::scene::model::gltf::accessor::{Buffers, missing};
 use crate::scene::model::gltf::container;
 use crate::scene::model::gltf::document::{Document, TextureInfo, TextureTransform};
@@ -24,7 +24,7 @@ pub(super) struct Pictures(BTreeMap<usize, Arc<Pixels>>);
 
 impl Pictures {
     /// Decodes all at the same time.
-    pub(super) fn read(buffers: &Buffers<'_>, folder: &Path, warnings: &mut Vec<Warning>) -> Self {
+    pub(super) fn read(buffers: &Buffers<'_>, folder: &Folder, warnings: &mut Vec<Warning>) -> Self {
         let mut sources: Vec<_> = buffers.document.textures.iter().filter_map(|texture| texture.source).collect();
         sources.sort_unstable();
         sources.dedup();
@@ -132,7 +132,7 @@ fn mapping(transform: &TextureTransform) -> Option<Mapping> {
     })
 }
 
-fn bytes(buffers: &Buffers<'_>, folder: &Path, index: usize) -> Result<Vec<u8>, FileError> {
+fn bytes(buffers: &Buffers<'_>, folder: &Folder, index: usize) -> Result<Vec<u8>, FileError> {
     let picture = buffers.document.images.get(index).ok_or_else(|| missing("picture", index))?;
     match (&picture.uri, picture.buffer_view) {
         (Some(uri), _) => container::resolve(uri, folder),

@@ -21,7 +21,7 @@ use glam::{DVec3, Vec3};
 use crate::error::{At, Error, FileError};
 use crate::scene::ReadOptions;
 use crate::scene::model::Model;
-use crate::scene::model::folder;
+use crate::scene::model::folder::Folder;
 use crate::scene::model::lines::Lines;
 use crate::scene::model::skipped::Skipped;
 use crate::warning::Warning;
@@ -29,7 +29,7 @@ use meshes::{Corner, Meshes, Normal, Points};
 use mtl::Mtl;
 use pictures::Pictures;
 
-pub(super) fn read(path: &Path, _: &ReadOptions<'_>) -> Result<Model, Error> {
+pub(super) fn read(path: &Path, options: &ReadOptions<'_>) -> Result<Model, Error> {
     let name = path.display().to_string();
     let mut reader = Reader::default();
     let mut lines = Lines::open(path, true)?;
@@ -41,7 +41,7 @@ pub(super) fn read(path: &Path, _: &ReadOptions<'_>) -> Result<Model, Error> {
             .hint("it is empty, or holds curves or points alone")
             .of(&name));
     }
-    Ok(reader.finish(path, &name))
+    Ok(reader.finish(path, &name, options.allow_outside))
 }
 
 #[derive(Default)]
@@ -171,15 +171,15 @@ impl Reader {
         Ok(())
     }
 
-    fn finish(self, path: &Path, file: &str) -> Model {
+    fn finish(self, path: &Path, file: &str, allow_outside: bool) -> Model {
         let Self { points, meshes, materials, libraries, skipped, .. } = self;
         let mut model = Model::new();
         model.warnings = skipped.warnings(file);
-        let folder = folder::of(path);
-        let mut pictures = Pictures::new(folder);
+        let folder = Folder::of(path, allow_outside);
+        let mut pictures = Pictures::new(&folder);
         let mut known = BTreeMap::new();
         for library in &libraries {
-            read_libraries(folder, library, &mut known, &mut model.warnings);
+            read_libraries(&folder, library, &mut known, &mut model.warnings);
         }
         let mut made = BTreeMap::new();
         for ((number, _), data) in meshes.finish(&points) {
@@ -250,8 +250,8 @@ fn index(word: &str, count: usize, what: &str) -> Result<u32, FileError> {
 }
 
 /// Reads the libraries after a `mtllib`: one whose name has spaces, or several.
-fn read_libraries(folder: &Path, names: &str, known: &mut BTreeMap<String, Mtl>, warnings: &mut Vec<Warning>) {
-    let find = |name: &str| folder::below(folder, Path::new(name));
+fn read_libraries(folder: &Folder, names: &str, known: &mut BTreeMap<String, Mtl>, warnings: &mut Vec<Warning>) {
+    let find = |name: &str| folder.find(Path::new(name));
     let names = if find(names).is_ok() { vec![names] } else { names.split_ascii_whitespace().collect() };
     for name in names {
         match find(name) {
@@ -259,7 +259,9 @@ fn read_libraries(folder: &Path, names: &str, known: &mut BTreeMap<String, Mtl>,
                 Ok(found) => warnings.extend(found),
                 Err(e) => warnings.push(Warning::new(format!("`{name}` is not read: {e}"))),
             },
-            Err(e) => warnings.push(Warning::new(format!("`{name}` is not read: {}", e.message))),
+            Err(e) => {
+                warnings.push(Warning { hint: e.hint, ..Warning::new(format!("`{name}` is not read: {}", e.message)) })
+            }
         }
     }
 }

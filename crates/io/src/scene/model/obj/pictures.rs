@@ -10,19 +10,19 @@ use crate::error::{Error, FileError};
 use crate::file;
 use crate::image::{pixels_size, read_pixels_bytes};
 use crate::scene::assets::MAX_BYTES;
-use crate::scene::model::folder;
+use crate::scene::model::folder::Folder;
 use crate::warning::Warning;
 
 /// Pictures that were read, each once; none of those that could not be.
 pub(super) struct Pictures {
-    folder: PathBuf,
+    folder: Folder,
     known: BTreeMap<PathBuf, Option<Arc<Pixels>>>,
     bytes: u64,
 }
 
 impl Pictures {
-    pub(super) fn new(folder: &Path) -> Self {
-        Self { folder: folder.to_owned(), known: BTreeMap::new(), bytes: 0 }
+    pub(super) fn new(folder: &Folder) -> Self {
+        Self { folder: folder.clone(), known: BTreeMap::new(), bytes: 0 }
     }
 
     /// The picture of that name, and its path; none, and a warning, if it cannot be had. Warnings are told once for each file.
@@ -32,8 +32,11 @@ impl Pictures {
         name: &str,
         warnings: &mut Vec<Warning>,
     ) -> Option<(PathBuf, Arc<Pixels>)> {
-        let refused = |e: &FileError| Warning::new(format!("the picture `{name}` is not read: {}", e.message));
-        let path = match folder::below(&self.folder, &below.join(name)) {
+        let refused = |e: &FileError| Warning {
+            hint: e.hint.clone(),
+            ..Warning::new(format!("the picture `{name}` is not read: {}", e.message))
+        };
+        let path = match self.folder.find(&below.join(name)) {
             Ok(path) => path,
             Err(e) => {
                 warnings.push(refused(&e));
