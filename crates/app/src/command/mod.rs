@@ -1,6 +1,7 @@
 //! The commands, each a file.
 
 mod check;
+mod convert;
 mod develop;
 mod figures;
 mod info;
@@ -10,6 +11,7 @@ mod schema;
 mod selftest;
 mod setup;
 mod target;
+mod turntable;
 
 use std::io::{Write, stdout};
 use std::path::Path;
@@ -20,8 +22,10 @@ use crate::error::Error;
 pub(crate) fn run(args: Args) -> Result<(), Error> {
     match args.command {
         Command::Render(args) => render::run(&args),
+        Command::Turntable(args) => turntable::run(&args),
         Command::Develop(args) => develop::run(&args),
         Command::Check(args) => check::run(&args),
+        Command::Convert(args) => convert::run(&args),
         Command::Info(args) => info::run(&args),
         Command::Schema => schema::run(),
         Command::Figures(args) => figures::run(&args),

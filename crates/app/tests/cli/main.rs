@@ -1,6 +1,7 @@
 //! The command as a user meets it: what it prints, writes and returns.
 
 mod aov;
+mod convert;
 mod determinism;
 mod develop;
 mod examples;
@@ -16,6 +17,7 @@ mod selftest;
 #[cfg(unix)]
 mod signals;
 mod streams;
+mod turntable;
 mod usage;
 
 use std::fs;

@@ -4,6 +4,7 @@ mod dress;
 mod geometry;
 mod lamps;
 mod met;
+mod view;
 
 pub use eyebeam_bvh::{Bvh, Ray, Slot};
 

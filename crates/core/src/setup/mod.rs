@@ -6,12 +6,15 @@
 mod extent;
 mod eye;
 mod studio;
+mod turntable;
 
 use crate::desc::SceneDesc;
 use crate::light::sky::SkyDesc;
 use crate::light::{EnvironmentDesc, ImageEnvironment};
 
 use extent::Extent;
+
+pub use turntable::{Turntable, View};
 
 /// What a file says.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]

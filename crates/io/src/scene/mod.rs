@@ -10,6 +10,7 @@ pub mod ply;
 mod source;
 mod textures;
 mod toml;
+mod write;
 
 use std::path::Path;
 
@@ -21,6 +22,7 @@ use crate::warning::Warning;
 
 pub use contents::{Animation, Contents, NamedCamera};
 pub use model::{MODEL_FORMATS, ModelFormat, Up};
+pub use write::{WriteOptions, Written, check_unwritten, write};
 
 /// A scene as it was read, with all the files that it names.
 #[derive(Clone, Debug)]

@@ -6,9 +6,9 @@ use eyebeam_core::look::Look;
 use eyebeam_io::Warning;
 use serde::Serialize;
 
-use crate::args::RenderArgs;
-use crate::command::render::Described;
+use crate::args::PictureArgs;
 use crate::command::render::aov::About;
+use crate::command::render::session::Described;
 use crate::command::report::{self, Told};
 use crate::limits::peak_memory;
 
@@ -19,6 +19,9 @@ pub(super) struct Provenance<'a> {
     version: &'static str,
     /// The scene file, as it was named.
     scene: String,
+    /// Which picture of a turn it is.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    turntable: Option<Frame>,
     /// Settings of the command line that changed the scene.
     overrides: Vec<String>,
     /// SHA-256 of the scene with all that was included, changed and loaded, but for `settings`.
@@ -30,6 +33,15 @@ pub(super) struct Provenance<'a> {
     error: Option<Error>,
     #[serde(skip)]
     dropped: u64,
+}
+
+/// A picture of a turn; the scene's hash is that of the first.
+#[derive(Clone, Copy, Debug, Serialize)]
+pub(crate) struct Frame {
+    /// From 0.
+    pub(crate) frame: u32,
+    /// How many there are.
+    pub(crate) of: u32,
 }
 
 #[derive(Debug, Serialize)]
@@ -47,7 +59,7 @@ struct Error {
 
 impl<'a> Provenance<'a> {
     pub(super) fn new(
-        args: &RenderArgs,
+        args: &PictureArgs,
         scene: &Described<'a>,
         aov: About,
         film: &Film,
@@ -57,7 +69,8 @@ impl<'a> Provenance<'a> {
         Self {
             schema: "eyebeam-render-1",
             version: env!("CARGO_PKG_VERSION"),
-            scene: args.scene.display().to_string(),
+            scene: scene.file.display().to_string(),
+            turntable: scene.frame,
             overrides: args.set.iter().map(|o| format!("{}={}", o.path, o.value)).collect(),
             scene_hash: scene.hash,
             settings: scene.settings,

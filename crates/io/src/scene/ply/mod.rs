@@ -7,6 +7,7 @@
 
 mod header;
 mod values;
+mod write;
 
 use std::path::Path;
 
@@ -16,6 +17,8 @@ use crate::error::{At, Error, FileError};
 use crate::file;
 use header::{Element, Format, Header, Kind, Scalar};
 use values::{Binary, Text, Values};
+
+pub use write::encode_ply;
 
 /// Triangles and what their corners have.
 #[derive(Clone, Debug, Default, PartialEq)]
