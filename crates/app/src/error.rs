@@ -51,7 +51,7 @@ impl Error {
 }
 
 /// `12.3 GiB`
-fn bytes(n: u64) -> String {
+pub(crate) fn bytes(n: u64) -> String {
     let units = ["B", "KiB", "MiB", "GiB", "TiB", "PiB", "EiB"];
     let power = (n.max(1).ilog2() / 10) as usize;
     format!("{:.1} {}", n as f64 / (1_u64 << (10 * power)) as f64, units[power])

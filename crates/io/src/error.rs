@@ -164,7 +164,7 @@ pub(crate) fn fmt_report(
 }
 
 /// Names come from files: a line stays a line, no longer than one can read, and a terminal is told nothing.
-fn visible(text: &str) -> String {
+pub fn visible(text: &str) -> String {
     const LONGEST: usize = 500;
     let mut line = String::new();
     for c in text.chars().take(LONGEST) {

@@ -16,7 +16,7 @@ use crate::file;
 use crate::ies::read_ies_bytes;
 use crate::image::{image_size, read_image_bytes};
 use crate::memory::Memory;
-use crate::scene::ply::{self, mesh_size, read_ply_bytes};
+use crate::scene::ply::{mesh_size, read_ply_bytes};
 use crate::scene::textures;
 use crate::warning::Warning;
 
@@ -102,19 +102,13 @@ impl Asset for IesProfile {
     }
 }
 
-impl From<ply::MeshData> for MeshData {
-    fn from(ply::MeshData { vertices, normals, uvs, colors, triangles }: ply::MeshData) -> Self {
-        Self { vertices, triangles, normals, uvs, colors, ..Self::default() }
-    }
-}
-
 impl Asset for MeshData {
     fn size(name: &str, bytes: &[u8]) -> Result<u64, Error> {
         mesh_size(name, bytes)
     }
 
     fn read(name: &str, bytes: &[u8]) -> Result<(Self, Vec<Warning>), Error> {
-        Ok((read_ply_bytes(name, bytes)?.into(), Vec::new()))
+        Ok((read_ply_bytes(name, bytes)?, Vec::new()))
     }
 }
 

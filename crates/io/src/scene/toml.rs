@@ -22,7 +22,7 @@ use crate::scene::explain::{
 use crate::scene::merge::{self, Table};
 use crate::scene::nesting::{self, MAX_DEPTH};
 use crate::scene::source::{Problem, Sources, into_error, into_warnings};
-use crate::scene::{Override, ReadOptions, SceneFile};
+use crate::scene::{Contents, Override, ReadOptions, SceneFile};
 
 /// How many mistakes are looked for: each costs a walk through the scene, so fewer in long ones.
 fn most_problems(length: usize) -> usize {
@@ -47,7 +47,9 @@ pub(super) fn read(mut sources: Sources, options: &ReadOptions<'_>) -> Result<Sc
     }
     let Reader { problems, warnings, .. } = reader;
     if problems.is_empty() {
-        Ok(SceneFile { desc, warnings: into_warnings(warnings), given: Given::ALL, memory: memory.taken() })
+        let contents = Contents { format: "scene", ..Contents::default() };
+        let (warnings, memory) = (into_warnings(warnings), memory.taken());
+        Ok(SceneFile { desc, warnings, given: Given::ALL, contents, memory })
     } else {
         Err(into_error(problems))
     }

@@ -33,8 +33,9 @@ pub(super) fn size(bytes: &[u8]) -> Result<u64, FileError> {
     let mut file = Bytes { bytes, at: 0 };
     read_header(&mut file)?;
     let (width, height) = read_layout(&mut file)?.size();
+    let size = check_size(width, height, LINEAR)?;
     check_length(bytes, width, height, PIXELS_IN_BYTE)?;
-    check_size(width, height, LINEAR)
+    Ok(size)
 }
 
 fn read_layout(file: &mut Bytes) -> Result<Layout, FileError> {

@@ -17,6 +17,8 @@ pub enum Files<'a> {
     None,
     /// In a folder or below.
     In(&'a Path),
+    /// Anywhere: relative names begin at a folder.
+    Anywhere(&'a Path),
     /// In memory, by their names; scene files cannot name these.
     Given(&'a BTreeMap<String, Vec<u8>>),
 }
@@ -29,7 +31,8 @@ impl Files<'_> {
     pub(super) fn find(self, name: &Path) -> Result<PathBuf, FileError> {
         match self {
             Self::None => Err(FileError::new("the model has no folder").hint("save it as a file")),
-            Self::In(folder) => folder::below(folder, name),
+            Self::In(folder) => folder::find(folder, name, false),
+            Self::Anywhere(folder) => folder::find(folder, name, true),
             Self::Given(files) => {
                 let path = name.components().collect::<PathBuf>();
                 let is_there = path.to_str().is_some_and(|name| files.contains_key(name));
@@ -48,7 +51,7 @@ impl Files<'_> {
                 let bytes = path.to_str().and_then(|name| files.get(name));
                 bytes.cloned().ok_or_else(|| FileError::new("it is not given").of(&path.display().to_string()))
             }
-            Self::None | Self::In(_) => file::read(path),
+            Self::None | Self::In(_) | Self::Anywhere(_) => file::read(path),
         }
     }
 }
@@ -68,10 +71,11 @@ enum Source<'a> {
 }
 
 impl<'a> Input<'a> {
-    /// A file, with those beside it.
-    pub(in crate::scene) fn file(path: &'a Path) -> Self {
-        let (name, files) = (path.display().to_string(), Files::In(folder::of(path)));
-        Self { name, source: Source::File(path), files }
+    /// A file, with those beside it, or those everywhere.
+    pub(in crate::scene) fn file(path: &'a Path, allow_outside: bool) -> Self {
+        let folder = folder::of(path);
+        let files = if allow_outside { Files::Anywhere(folder) } else { Files::In(folder) };
+        Self { name: path.display().to_string(), source: Source::File(path), files }
     }
 
     /// Bytes; `name` stands for them in errors.

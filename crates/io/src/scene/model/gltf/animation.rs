@@ -9,6 +9,8 @@ use std::collections::btree_map::Entry;
 use glam::DQuat;
 
 use crate::error::FileError;
+use crate::scene;
+use crate::scene::model::choose::choose;
 use crate::scene::model::gltf::accessor::{Buffers, missing};
 use crate::scene::model::gltf::document::{Animation, AnimationSampler, Document};
 
@@ -30,13 +32,17 @@ enum To {
 /// # Errors
 /// If there is none; they are listed.
 pub(super) fn find(document: &Document, wanted: &str) -> Result<usize, FileError> {
-    let by_name = document.animations.iter().position(|animation| animation.name == wanted);
-    let by_number = wanted.parse().ok().filter(|&i: &usize| i < document.animations.len());
-    by_name.or(by_number).ok_or_else(|| {
-        let names: Vec<_> = document.animations.iter().enumerate().map(|(i, a)| format!("{i} `{}`", a.name)).collect();
-        let hint = if names.is_empty() { "it has none".to_owned() } else { format!("it has {}", names.join(", ")) };
-        FileError::new(format!("there is no animation `{wanted}`")).hint(hint)
-    })
+    choose("animation", wanted, document.animations.iter().map(|animation| animation.name.as_str()))
+}
+
+/// All animations, with the time of their last keys.
+pub(super) fn all(buffers: &Buffers<'_>) -> Vec<scene::Animation> {
+    let end = |sampler: &AnimationSampler| buffers.floats::<1>(sampler.input, 0.0).ok()?.last().map(|[t]| *t);
+    let told = |Animation { name, samplers, .. }: &Animation| scene::Animation {
+        name: name.clone(),
+        seconds: samplers.iter().filter_map(end).filter(|t| t.is_finite()).fold(0.0, f32::max),
+    };
+    buffers.document.animations.iter().map(told).collect()
 }
 
 /// What an animation says at a time, seconds.

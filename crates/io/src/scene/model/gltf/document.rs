@@ -48,11 +48,13 @@ pub(super) struct Document {
 pub(super) struct Asset {
     pub(super) version: String,
     pub(super) min_version: Option<String>,
+    pub(super) generator: Option<String>,
 }
 
 #[derive(Debug, Default, Deserialize)]
 #[serde(default)]
 pub(super) struct Scene {
+    pub(super) name: String,
     pub(super) nodes: Vec<usize>,
     pub(super) extensions: Extensions,
 }
@@ -60,6 +62,7 @@ pub(super) struct Scene {
 #[derive(Debug, Default, Deserialize)]
 #[serde(default)]
 pub(super) struct Node {
+    pub(super) name: String,
     pub(super) children: Vec<usize>,
     pub(super) matrix: Option<[f64; 16]>,
     pub(super) translation: Option<[f64; 3]>,
@@ -277,6 +280,7 @@ pub(super) struct AnimationSampler {
 #[derive(Debug, Default, Deserialize)]
 #[serde(default)]
 pub(super) struct Camera {
+    pub(super) name: String,
     pub(super) perspective: Option<Perspective>,
     pub(super) orthographic: Option<Orthographic>,
 }

@@ -32,9 +32,10 @@ use self::material::Materials;
 use self::texture::Pictures;
 use crate::error::{At, Error, FileError};
 use crate::memory::Memory;
-use crate::scene::ReadOptions;
 use crate::scene::model::Model;
+use crate::scene::model::choose::choose;
 use crate::scene::model::files::{Files, Input};
+use crate::scene::{Contents, ReadOptions};
 use crate::warning::Warning;
 
 pub(super) fn read(input: &Input<'_>, options: &ReadOptions<'_>, memory: &Memory) -> Result<Model, Error> {
@@ -67,18 +68,41 @@ fn read_bytes(
     let buffers = Buffers { document: &document, bytes: &bytes, memory };
     let pictures = Pictures::read(&buffers, files, &mut model.warnings);
     let mut materials = Materials::new(&document, &pictures, name);
-    let placed = node::in_world(&document, document.scene.unwrap_or(0))?;
+    let scene = scene(&document, options.scene, &mut model.warnings)?;
+    let placed = node::in_world(&document, scene)?;
+    model.contents = Contents {
+        generator: document.asset.generator.clone(),
+        scenes: document.scenes.iter().map(|scene| scene.name.clone()).collect(),
+        scene: Some(scene),
+        animations: animation::all(&buffers),
+        ..Contents::default()
+    };
     plan::check(&buffers, &placed)?;
     let lights = light::all(&document);
     for &(index, to_world) in &placed {
         let Some(node) = document.nodes.get(index) else { continue };
-        camera::read(&document, node, &to_world, &mut model)?;
+        camera::read(&document, node, &to_world, &mut model);
         light::read(&lights, node, &to_world, &mut model)?;
     }
-    surroundings::read(&buffers, files, &mut model)?;
+    surroundings::read(&buffers, scene, files, &mut model)?;
     shapes::read(&buffers, &placed, &mut materials, &mut model)?;
     model.warnings.dedup();
     Ok(model)
+}
+
+/// The scene that is wanted, or that the file says; of others that nobody asked for there is a warning.
+fn scene(document: &Document, wanted: Option<&str>, warnings: &mut Vec<Warning>) -> Result<usize, FileError> {
+    if let Some(wanted) = wanted {
+        return choose("scene", wanted, document.scenes.iter().map(|scene| scene.name.as_str()));
+    }
+    let scene = document.scene.unwrap_or(0);
+    if document.scenes.len() > 1 {
+        let other = usize::from(scene == 0);
+        let message = format!("of {} scenes number {scene} is read alone", document.scenes.len());
+        let hint = Some(format!("`--scene {other}` reads another"));
+        warnings.push(Warning { hint, ..Warning::new(message) });
+    }
+    Ok(scene)
 }
 
 /// Moves nodes to where an animation has them; of one that nobody asked for there is a warning.

@@ -42,9 +42,9 @@ struct Named {
 }
 
 /// The surroundings of the scene that is shown, if it has any.
-pub(super) fn read(buffers: &Buffers<'_>, files: Files<'_>, model: &mut Model) -> Result<(), FileError> {
+pub(super) fn read(buffers: &Buffers<'_>, scene: usize, files: Files<'_>, model: &mut Model) -> Result<(), FileError> {
     let document = buffers.document;
-    let scene = document.scenes.get(document.scene.unwrap_or(0));
+    let scene = document.scenes.get(scene);
     let Some(Named { light: index }) = scene.and_then(|scene| get(&scene.extensions, NAME)) else { return Ok(()) };
     let Lights { lights } = get(&document.extensions, NAME).unwrap_or_default();
     let light = lights.get(index).ok_or_else(|| missing("image-based light", index))?;

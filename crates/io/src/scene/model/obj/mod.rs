@@ -282,7 +282,9 @@ fn read_libraries(files: Files<'_>, lines: &[String], known: &mut BTreeMap<Strin
                 Ok(found) => warnings.extend(found),
                 Err(e) => warnings.push(Warning::new(format!("`{name}` is not read: {e}"))),
             },
-            Err(e) => warnings.push(Warning::new(format!("`{name}` is not read: {}", e.message))),
+            Err(e) => {
+                warnings.push(Warning { hint: e.hint, ..Warning::new(format!("`{name}` is not read: {}", e.message)) })
+            }
         }
     }
 }

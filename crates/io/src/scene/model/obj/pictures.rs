@@ -31,7 +31,10 @@ impl<'a> Pictures<'a> {
         name: &str,
         warnings: &mut Vec<Warning>,
     ) -> Option<(PathBuf, Arc<Pixels>)> {
-        let refused = |e: &FileError| Warning::new(format!("the picture `{name}` is not read: {}", e.message));
+        let refused = |e: &FileError| Warning {
+            hint: e.hint.clone(),
+            ..Warning::new(format!("the picture `{name}` is not read: {}", e.message))
+        };
         let path = match self.files.find(&below.join(name)) {
             Ok(path) => path,
             Err(e) => {
