@@ -81,7 +81,7 @@ fn picture(buffers: &Buffers<'_>, folder: &Path, index: usize) -> Result<Image, 
     let bytes = texture::bytes(buffers, folder, index)?;
     // All six, as light and as a panorama.
     if pixels_size("", &bytes)? > MAX_BYTES / 64 {
-        return Err(FileError::new(format!("it takes more than {} MiB", MAX_BYTES / 64 >> 20)));
+        return Err(FileError::new(format!("it takes more than {} MiB", (MAX_BYTES / 64) >> 20)));
     }
     let (pixels, _) = read_pixels_bytes("", &bytes)?;
     let mut image = pixels.to_image();
