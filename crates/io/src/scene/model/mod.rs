@@ -95,6 +95,11 @@ pub(super) fn read(format: &ModelFormat, path: &Path, options: &ReadOptions<'_>)
         }
         (None, None) => {}
     }
+    for (option, given) in [("animation", options.animation), ("variant", options.variant)] {
+        if given.is_some() && format.name != "glTF" {
+            warnings.push(Warning::new(format!("{} files have no {option}s: `--{option}` is not used", format.name)));
+        }
+    }
     let problems = desc.check();
     if problems.is_empty() {
         return Ok(SceneFile { desc, warnings, given });

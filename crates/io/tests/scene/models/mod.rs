@@ -67,6 +67,18 @@ fn of_models_only_the_picture_can_be_changed() {
     assert!(error.contains("`-D camera.vfov` changes a scene file, and this is a model"), "{error}");
 }
 
+/// What a format has not cannot be chosen.
+#[test]
+fn options_of_other_formats_are_told_of() {
+    let folder = TempDir::new().unwrap();
+    let path = folder.path().join("t.ply");
+    fs::write(&path, TRIANGLE).unwrap();
+    let options = ReadOptions { animation: Some("walk"), variant: Some("red"), ..ReadOptions::default() };
+    let warnings: Vec<_> = read_with(&path, &options).unwrap().warnings.into_iter().map(|w| w.message).collect();
+    let told = |option: &str| format!("PLY files have no {option}s: `--{option}` is not used");
+    assert_eq!(warnings, [told("animation"), told("variant")]);
+}
+
 #[test]
 fn a_model_that_is_missing_is_said() {
     assert!(read(Path::new("nowhere.ply"), &[]).unwrap_err().to_string().contains("cannot read `nowhere.ply`"));
