@@ -20,7 +20,7 @@ pub(crate) struct ModelArgs {
     /// When in the animation, seconds
     #[arg(long, value_name = "SECONDS", default_value_t = 0.0, allow_negative_numbers = true, requires = "animation")]
     pub(crate) at: f32,
-    /// Variant of the model's materials, by its name or number [default: the materials of the file]
+    /// Variant of the model's materials, by its name or number [default: those of the file]
     #[arg(long, value_name = "NAME")]
     pub(crate) variant: Option<String>,
     /// Scene of a .gltf or .glb that has several, by its name or number [default: the one that it says]

@@ -99,7 +99,7 @@ impl View {
     }
 
     /// A direction from there.
-    fn from_coat(&self, w: Vec3) -> Vec3 {
+    fn out_of_coat(&self, w: Vec3) -> Vec3 {
         self.coat.map_or(w, |frame| frame.to_world(w))
     }
 
@@ -177,7 +177,7 @@ impl PrincipledBsdf {
                 if wi.z <= 0.0 {
                     return None;
                 }
-                (view.from_coat(wi), 1.0)
+                (view.out_of_coat(wi), 1.0)
             }
             Part::Facets if self.is_smooth() => return Some(self.mirror(wo, &view)),
             Part::Facets => (reflect_at(up, self.ggx.sample(up, u)), 1.0),
@@ -288,7 +288,7 @@ impl PrincipledBsdf {
 
     fn coat_mirror(&self, view: &View, side: f32) -> Option<BsdfSample> {
         let above = view.to_coat(view.wo);
-        let wi = view.from_coat(reflect(above));
+        let wi = view.out_of_coat(reflect(above));
         let chance = view.chance(Part::Coat);
         let share = self.coat_weight * view.under_fuzz * self.coat.fresnel(above.z);
         let weight = Spectrum::ONE * (share / chance);

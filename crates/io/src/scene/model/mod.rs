@@ -74,12 +74,15 @@ impl Model {
 
     /// Takes the camera that is wanted, or the first. What a format knows nothing of cannot be wanted.
     fn choose(&mut self, options: &ReadOptions<'_>) -> Result<(), FileError> {
-        let Contents { scenes, cameras, animations, .. } = &self.contents;
+        let Contents { scenes, cameras, animations, variants, .. } = &self.contents;
         if let Some(wanted) = options.scene {
             choose("scene", wanted, scenes.iter().map(String::as_str))?;
         }
         if let Some(wanted) = options.animation {
             choose("animation", wanted, animations.iter().map(|animation| animation.name.as_str()))?;
+        }
+        if let Some(wanted) = options.variant {
+            choose("variant", wanted, variants.iter().map(String::as_str))?;
         }
         let index = match options.camera {
             None => 0,

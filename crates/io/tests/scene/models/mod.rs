@@ -67,6 +67,24 @@ fn of_models_only_the_picture_can_be_changed() {
     assert!(error.contains("`-D camera.vfov` changes a scene file, and this is a model"), "{error}");
 }
 
+/// What a format has not cannot be chosen.
+#[test]
+fn other_formats_have_nothing_to_choose() {
+    let folder = TempDir::new().unwrap();
+    let path = folder.path().join("t.ply");
+    fs::write(&path, TRIANGLE).unwrap();
+    let nothing = ReadOptions::default();
+    for (kind, options) in [
+        ("animation", ReadOptions { animation: Some("it"), ..nothing }),
+        ("variant", ReadOptions { variant: Some("it"), ..nothing }),
+        ("camera", ReadOptions { camera: Some("it"), ..nothing }),
+        ("scene", ReadOptions { scene: Some("it"), ..nothing }),
+    ] {
+        let error = read_with(&path, &options).unwrap_err().to_string();
+        assert!(error.contains(&format!("there is no {kind} `it`")) && error.contains("it has none"), "{error}");
+    }
+}
+
 #[test]
 fn a_model_that_is_missing_is_said() {
     assert!(read(Path::new("nowhere.ply"), &[]).unwrap_err().to_string().contains("cannot read `nowhere.ply`"));
