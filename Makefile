@@ -52,7 +52,7 @@ FUZZ_SECONDS ?= 300
 fuzz:
 	EYEBEAM_SEEDS=$(CURDIR)/fuzz/corpus cargo test --locked -p eyebeam-io --test hostile fuzzing_begins_with_them
 	@mkdir -p fuzz/corpus/$(TARGET)
-	cargo +nightly fuzz run $(TARGET) -- -max_total_time=$(FUZZ_SECONDS) -rss_limit_mb=2048 \
+	cargo +nightly fuzz run -O $(TARGET) -- -max_total_time=$(FUZZ_SECONDS) -rss_limit_mb=2048 \
 		$(if $(filter kernel,$(TARGET)),-timeout=10 -max_len=1024 -len_control=0,-timeout=5 -max_len=65536)
 
 # Speed, and the comparison with a textbook program (docs/performance.md).

@@ -1,5 +1,6 @@
 //! Files that are damaged, or made to do harm: an error with the name of the file, soon, and in little memory.
 
+mod codecs;
 mod corpus;
 mod damage;
 mod memory;
@@ -72,7 +73,7 @@ fn watched<T: Send>(what: &str, work: impl FnOnce() -> T + Send) -> (T, usize) {
 /// Reads bytes as the file whose name they have. A library of materials is that of a triangle.
 fn read_as(name: &str, bytes: &[u8], options: &ReadOptions<'_>) -> Result<(), Error> {
     match name.rsplit_once('.').unwrap_or_default().1 {
-        "exr" | "hdr" | "png" | "jpg" => {
+        "exr" | "hdr" | "png" | "jpg" | "webp" | "ktx2" => {
             let image = read_image_bytes(name, bytes).map(drop);
             let pixels = read_pixels_bytes(name, bytes);
             assert_eq!(image.is_ok(), pixels.is_ok());
@@ -99,7 +100,9 @@ fn read_as(name: &str, bytes: &[u8], options: &ReadOptions<'_>) -> Result<(), Er
 
 /// Reads bytes, posed where they have an animation: they are read or refused by their name, in time. What is said, if anything.
 fn attempt(name: &str, bytes: &[u8]) -> Option<String> {
-    let options = ReadOptions { animation: Some("0"), at: 0.25, ..ReadOptions::default() };
+    // What has none has nothing to choose.
+    let animation = Some("0").filter(|_| name.starts_with("model."));
+    let options = ReadOptions { animation, at: 0.25, ..ReadOptions::default() };
     let error = watched(name, || read_as(name, bytes, &options)).0.err()?.to_string();
     assert!(error.contains(name.trim_end_matches(".mtl")), "{name}: {error}");
     Some(error)

@@ -1,5 +1,6 @@
 //! Small files that ask for much memory: they are refused before they get it.
 
+use exr::prelude::Compression;
 use eyebeam_core::film::Image;
 use eyebeam_io::Error;
 use eyebeam_io::image::{Encoding, ImageFormat};
@@ -150,6 +151,32 @@ fn headers_that_promise_anything() {
     refused("mesh.stl", &stl);
     refused("lamp.ies", b"TILT=NONE\n1 1 1 1000 1000 1 1 0 0 0 1 1 1\n0 0");
     refused("lamp.ies", b"TILT=INCLUDE\n1 1000000 1");
+}
+
+/// Tiles of one pixel, and lines or tiles of as many as can be, whose number is not told.
+#[test]
+fn openexr_that_promises_many_blocks() {
+    let _alone = alone();
+    for compression in
+        [Compression::Uncompressed, Compression::RLE, Compression::ZIP16, Compression::PIZ, Compression::B44]
+    {
+        for (side, tile) in [(16_000_u32, 1_u32), (16_000, 16_000), (100_000, 1), (100_000, 64), (4_000_000, 4_000_000)]
+        {
+            let mut bytes = samples::exr(compression);
+            let find =
+                |bytes: &[u8], name: &[u8]| bytes.windows(name.len()).position(|w| w == name).map(|at| at + name.len());
+            if let Some(end) = find(&bytes, b"chunkCount\0") {
+                bytes[end - 2] = b'x';
+            }
+            let window = find(&bytes, b"dataWindow\0box2i\0").unwrap() + 4;
+            bytes[window + 8..window + 12].copy_from_slice(&(side - 1).to_le_bytes());
+            bytes[window + 12..window + 16].copy_from_slice(&(side - 1).to_le_bytes());
+            let tiles = find(&bytes, b"tiles\0tiledesc\0").unwrap() + 4;
+            bytes[tiles..tiles + 4].copy_from_slice(&tile.to_le_bytes());
+            bytes[tiles + 4..tiles + 8].copy_from_slice(&tile.to_le_bytes());
+            refused("picture.exr", &bytes);
+        }
+    }
 }
 
 /// The sum of a PNG's chunk. ISO/IEC 15948:2004, annex D.

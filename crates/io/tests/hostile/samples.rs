@@ -10,6 +10,8 @@ use eyebeam_core::film::Image;
 use eyebeam_io::image::{Encoding, ImageFormat};
 use serde_json::{Value, json};
 
+use crate::codecs;
+
 pub(crate) const OBJ: &str = "# a wall\nmtllib a.mtl\nv 0 0 0 1 0 0\nv 1 0 0 0 1 0\nv 1 1 0 0 0 1\nv 0 1 0 1 1 1\nv 0.5 0.2 0\n\
     vt 0 0\nvt 1 0\nvt 1 1\nvt 0 1\nvn 0 0 1\no wall\ng part\nusemtl paint\ns 1\nf 1/1 2/2 3/3 4/4\nf 1//1 2//1 3//1\n\
     s off\nf -5 -1 -4 -3 \\\n -2\nusemtl glass\nf 1/1/1 2/2/1 3/3/1\n";
@@ -46,6 +48,10 @@ pub(crate) fn all() -> Vec<(String, Vec<u8>)> {
     ]
     .map(|(name, bytes)| (name.to_owned(), bytes))
     .into();
+    all.push(("walk.glb".to_owned(), codecs::draco(1)));
+    all.push(("list.glb".to_owned(), codecs::draco(0)));
+    all.push(("picture.webp".to_owned(), codecs::webp()));
+    all.push(("picture.ktx2".to_owned(), codecs::ktx2()));
     for (ending, format) in
         [("exr", ImageFormat::Exr), ("hdr", ImageFormat::Hdr), ("png", ImageFormat::Png), ("jpg", ImageFormat::Jpeg)]
     {
@@ -74,7 +80,7 @@ fn picture() -> Image {
 }
 
 /// Tiles of three channels.
-fn exr(compression: Compression) -> Vec<u8> {
+pub(crate) fn exr(compression: Compression) -> Vec<u8> {
     let samples = |factor: f32| FlatSamples::F32((0..140).map(|i| (i % 20) as f32 * factor).collect());
     let channels = [("R", 0.1), ("G", 0.2), ("B", 0.3)].map(|(name, factor)| AnyChannel::new(name, samples(factor)));
     let channels = AnyChannels::sort(channels.into_iter().collect());

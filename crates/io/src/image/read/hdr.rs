@@ -3,8 +3,10 @@
 //! A colour is (r, g, b) · 2^(e − 136). A line stores runs of each channel (new), or pixels of which (1, 1, 1, n) repeats
 //! the last one n times (old). Ward, "Real Pixels", Graphics Gems II, 1991; the Radiance file formats.
 
+use eyebeam_core::film::Image;
+
 use crate::error::{At, FileError};
-use crate::image::read::{Decoded, LINEAR, canvas, check_length, check_size};
+use crate::image::read::{Decoded, LINEAR, check_length, check_size};
 use crate::warning::Warning;
 
 /// The old way would allow any number; a run of the new one is of 127 pixels in eight bytes.
@@ -15,8 +17,9 @@ pub(super) fn decode(bytes: &[u8]) -> Decoded {
     let warnings = read_header(&mut file)?;
     let layout = read_layout(&mut file)?;
     let (width, height) = layout.size();
+    check_size(width, height, LINEAR)?;
     check_length(bytes, width, height, PIXELS_IN_BYTE)?;
-    let mut image = canvas(width, height)?;
+    let mut image = Image::new(width as u32, height as u32);
     let mut line = vec![[0; 4]; layout.minor.length as usize];
     for i in 0..layout.major.length {
         read_line(&mut file, &mut line)?;
@@ -33,9 +36,9 @@ pub(super) fn size(bytes: &[u8]) -> Result<u64, FileError> {
     let mut file = Bytes { bytes, at: 0 };
     read_header(&mut file)?;
     let (width, height) = read_layout(&mut file)?.size();
-    let size = check_size(width, height, LINEAR)?;
+    let memory = check_size(width, height, LINEAR)?;
     check_length(bytes, width, height, PIXELS_IN_BYTE)?;
-    Ok(size)
+    Ok(memory)
 }
 
 fn read_layout(file: &mut Bytes) -> Result<Layout, FileError> {

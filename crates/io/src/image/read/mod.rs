@@ -139,12 +139,6 @@ const MAX_PIXELS: u64 = 1 << 28;
 /// Pictures that need more memory to decode are refused.
 const MAX_MEMORY: u64 = 4 << 30;
 
-/// A black picture, if it is within the limits.
-fn canvas(width: u64, height: u64) -> Result<Image, FileError> {
-    check_size(width, height, LINEAR)?;
-    Ok(Image::new(width as u32, height as u32))
-}
-
 /// That so many bytes can stand for a picture; a byte stands for no more than `most` pixels.
 ///
 /// Headers promise anything. So what is allocated is in proportion to what is there.
