@@ -65,7 +65,7 @@ fn read_bytes(name: &str, bytes: &[u8], folder: &Folder, options: &ReadOptions<'
     model.contents = Contents {
         generator: document.asset.generator.clone(),
         scenes: document.scenes.iter().map(|scene| scene.name.clone()).collect(),
-        scene: Some(scene),
+        scene: Some(scene).filter(|&scene| scene < document.scenes.len()),
         animations: animation::all(&buffers),
         ..Contents::default()
     };
