@@ -1,5 +1,7 @@
 //! `eyebeam convert`: any scene or model to a scene file that makes the same picture.
 
+use std::path::Path;
+
 use eyebeam_core::look::Exposure;
 use eyebeam_io::scene::{WriteOptions, Written, check_unwritten, read_with, write};
 
@@ -21,7 +23,8 @@ pub(super) fn run(args: &ConvertArgs) -> Result<(), Error> {
     (render.width, render.height) = args.resolution.unwrap_or((render.width, render.height));
     let assumed = setup::complete(&mut file, &args.setup)?;
     let file = report::say_of(file, args.strict, Talk::new(args.quiet, args.verbose))?;
-    let comment = format!("Converted from {} by Eyebeam {}", args.scene.display(), env!("CARGO_PKG_VERSION"));
+    let name = Path::new(args.scene.file_name().unwrap_or_default());
+    let comment = format!("Converted from {} by Eyebeam {}", name.display(), env!("CARGO_PKG_VERSION"));
     let options = WriteOptions { force: args.force, comment: &comment };
     let Written { folder, files } = write(&file.desc, &args.output, &options)?;
     if args.quiet {

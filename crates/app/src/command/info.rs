@@ -189,7 +189,7 @@ impl<'f> Info<'f> {
             line("texture", &format!("{name} ({kind}){}", picture.unwrap_or_default()));
         }
         for (i, Camera { name, kind, look_from: [x, y, z], .. }) in self.cameras.iter().enumerate() {
-            line("camera", &format!("{i} {name} ({kind}, at {x} {y} {z})"));
+            line("camera", &format!("{} ({kind}, at {x} {y} {z})", numbered(i, name)));
         }
         let Lights { point, spot, directional, ies, projector, environment } = &self.lights;
         let kinds =
@@ -199,10 +199,10 @@ impl<'f> Info<'f> {
         }
         line("around", environment);
         for (i, name) in self.scenes.iter().enumerate() {
-            line("scene", &format!("{i} {name}{}", if self.scene == Some(i) { " (this one)" } else { "" }));
+            line("scene", &format!("{}{}", numbered(i, name), if self.scene == Some(i) { " (this one)" } else { "" }));
         }
         for (i, Animation { name, seconds }) in self.animations.iter().enumerate() {
-            line("animation", &format!("{i} {name} ({seconds} s)"));
+            line("animation", &format!("{} ({seconds} s)", numbered(i, name)));
         }
         for (i, name) in self.variants.iter().enumerate() {
             line("variant", &format!("{i} {name}"));
@@ -247,6 +247,11 @@ impl<'f> Camera<'f> {
         };
         Self { name, kind, look_from: desc.look_from, look_at: desc.look_at }
     }
+}
+
+/// What one is called that can be chosen.
+fn numbered(index: usize, name: &str) -> String {
+    if name.is_empty() { index.to_string() } else { format!("{index} {name}") }
 }
 
 /// `1 mesh`, `2 meshes`.

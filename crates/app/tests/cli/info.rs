@@ -21,7 +21,7 @@ fn a_model_is_told_for_people_and_for_programs() {
     assert_eq!(info["cameras"][0]["name"], "front door");
     assert_eq!((&info["scenes"], &info["scene"]), (&json!(["whole", "bare"]), &json!(0)));
     assert_eq!(info["animations"], json!([{ "name": "lift", "seconds": 1.5 }]));
-    assert_eq!(info["textures"][0]["picture"]["width"], 5);
+    assert_eq!(info["textures"][1]["picture"]["width"], 5);
     assert_eq!(info["warnings"].as_array().unwrap().len(), 2);
     place.run("info missing.glb").ends_with(4);
 }

@@ -42,8 +42,7 @@ mod tests {
     #[test]
     fn it_is_as_if_it_had_been_built_so() {
         let mut desc = SceneDesc::default();
-        let sphere = serde_json::json!({ "radius": 1 });
-        desc.shape.sphere.push(serde_json::from_value::<SphereDesc>(sphere).unwrap());
+        desc.shape.sphere.push(SphereDesc { radius: 1.0, ..SphereDesc::default() });
         (desc.render.width, desc.render.height, desc.render.spp) = (16, 12, 2);
         let first = Scene::build(&desc).unwrap();
         desc.environment = EnvironmentDesc::Sky(SkyDesc::default());

@@ -73,7 +73,7 @@ fn read_bytes(
     model.contents = Contents {
         generator: document.asset.generator.clone(),
         scenes: document.scenes.iter().map(|scene| scene.name.clone()).collect(),
-        scene: Some(scene),
+        scene: Some(scene).filter(|&scene| scene < document.scenes.len()),
         animations: animation::all(&buffers),
         variants: variants::names(&document),
         ..Contents::default()
