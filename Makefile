@@ -45,9 +45,15 @@ memcheck:
 		echo "memcheck: SKIPPED. It needs valgrind."; \
 	fi
 
-# Random bytes as shapes and rays, for five minutes (a nightly compiler and `cargo install cargo-fuzz`).
+# Random bytes as what TARGET says (a file in fuzz/fuzz_targets), for five minutes: a nightly compiler and `cargo install cargo-fuzz`.
+# It begins with the small files of crates/io/tests/hostile, and goes on from what it found before, in fuzz/corpus.
+TARGET ?= kernel
+FUZZ_SECONDS ?= 300
 fuzz:
-	cargo +nightly fuzz run kernel -- -max_total_time=300 -timeout=10 -max_len=1024 -len_control=0
+	EYEBEAM_SEEDS=$(CURDIR)/fuzz/corpus cargo test --locked -p eyebeam-io --test hostile fuzzing_begins_with_them
+	@mkdir -p fuzz/corpus/$(TARGET)
+	cargo +nightly fuzz run $(TARGET) -- -max_total_time=$(FUZZ_SECONDS) -rss_limit_mb=2048 \
+		$(if $(filter kernel,$(TARGET)),-timeout=10 -max_len=1024 -len_control=0,-timeout=5 -max_len=65536)
 
 # Speed, and the comparison with a textbook program (docs/performance.md).
 bench:

@@ -12,7 +12,7 @@ from __future__ import annotations
 import sys
 from pathlib import Path
 
-from models import chess, courtyard, glass, many_lights, materials, product, room
+from models import chess, courtyard, glass, locomotive, many_lights, materials, product, room
 from models.modelling import Mesh
 
 FOLDER = Path(__file__).resolve().parent
@@ -28,6 +28,7 @@ def files() -> dict[Path, bytes]:
     """Everything that is written, by its place."""
     result = {FOLDER / "meshes" / f"{name}.ply": mesh.ply() for name, mesh in meshes().items()}
     result[FOLDER / "many-lights.toml"] = many_lights.scene().encode()
+    result[FOLDER / "locomotive.glb"] = locomotive.model()
     return result
 
 

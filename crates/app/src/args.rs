@@ -2,6 +2,7 @@
 
 mod look;
 mod model;
+mod template;
 
 use std::num::NonZeroUsize;
 use std::path::PathBuf;
@@ -14,7 +15,8 @@ use eyebeam_core::integrator::IntegratorKind;
 use eyebeam_io::scene::Override;
 
 use look::LookArgs;
-pub(crate) use model::{EnvironmentArg, ModelArgs, SetupArgs};
+pub(crate) use model::{CameraArg, EnvironmentArg, ModelArgs, SetupArgs};
+pub(crate) use template::Template;
 
 /// Photorealistic pictures by backward ray tracing.
 #[derive(Debug, Parser)]
@@ -28,10 +30,16 @@ pub(crate) struct Args {
 pub(crate) enum Command {
     /// Render a scene to a picture
     Render(RenderArgs),
+    /// Render a model from all around, for a film in which it turns
+    Turntable(TurntableArgs),
     /// Turn a picture of linear light (.exr, .hdr) into one for screens
     Develop(DevelopArgs),
     /// Report every problem of a scene without rendering it
     Check(CheckArgs),
+    /// Tell what is in a scene or a model
+    Info(InfoArgs),
+    /// Make a scene file of a model or of another scene, to be edited
+    Convert(ConvertArgs),
     /// Print the JSON Schema of scene files, for editors
     Schema,
     /// Make the figures and measurements of a study
@@ -47,6 +55,27 @@ pub(crate) struct RenderArgs {
     /// Picture to write (.png, .jpg, .exr, .hdr); - writes a PNG to standard output [default: SCENE.png]
     #[arg(short, long)]
     pub(crate) output: Option<PathBuf>,
+    #[command(flatten)]
+    pub(crate) picture: PictureArgs,
+}
+
+#[derive(Debug, ClapArgs)]
+pub(crate) struct TurntableArgs {
+    /// Model (.gltf, .glb, .obj, .ply, .stl) or scene file (.toml); - reads a scene from standard input
+    pub(crate) scene: PathBuf,
+    /// Pictures of a full turn
+    #[arg(short = 'n', long, value_name = "N", default_value_t = 36, value_parser = clap::value_parser!(u32).range(1..=100_000))]
+    pub(crate) frames: u32,
+    /// Pictures to write (.png, .jpg, .exr, .hdr): {frame} is the number from 0, {frame:04} has four digits, {model} the file's name
+    #[arg(short, long, default_value = "{model}-{frame:04}.png")]
+    pub(crate) output: Template,
+    #[command(flatten)]
+    pub(crate) picture: PictureArgs,
+}
+
+/// How pictures are made.
+#[derive(Debug, ClapArgs)]
+pub(crate) struct PictureArgs {
     /// Samples per pixel
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(1..=i64::from(RenderDesc::MAX_SPP)))]
     pub(crate) spp: Option<u32>,
@@ -106,7 +135,7 @@ pub(crate) struct RenderArgs {
     pub(crate) setup: SetupArgs,
 }
 
-impl RenderArgs {
+impl PictureArgs {
     /// Each quantity that is asked for, once, in the order of their names' list.
     pub(crate) fn aovs(&self) -> Vec<Aov> {
         let asked = |aov: Aov| self.aov.iter().any(|choice| choice.0.is_none_or(|chosen| chosen == aov));
@@ -129,10 +158,6 @@ pub(crate) struct DevelopArgs {
     #[arg(short, long)]
     pub(crate) quiet: bool,
     #[command(flatten)]
-    pub(crate) model: ModelArgs,
-    #[command(flatten)]
-    pub(crate) setup: SetupArgs,
-    #[command(flatten)]
     pub(crate) look: LookArgs,
 }
 
@@ -148,6 +173,53 @@ pub(crate) struct CheckArgs {
     /// Take warnings about the scene for errors
     #[arg(long)]
     pub(crate) strict: bool,
+    /// Refuse files that need more memory than this
+    #[arg(long, value_name = "BYTES", default_value = "8G", value_parser = memory)]
+    pub(crate) memory: u64,
+}
+
+#[derive(Debug, ClapArgs)]
+pub(crate) struct InfoArgs {
+    /// Scene file (.toml) or model (.gltf, .glb, .obj, .ply, .stl); - reads a scene from standard input
+    pub(crate) file: PathBuf,
+    /// Print it as one JSON object
+    #[arg(long)]
+    pub(crate) json: bool,
+    #[command(flatten)]
+    pub(crate) model: ModelArgs,
+    /// Change a value of the scene, as in -D camera.vfov=30
+    #[arg(short = 'D', value_name = "KEY=VALUE", value_parser = setting)]
+    pub(crate) set: Vec<Override>,
+}
+
+#[derive(Debug, ClapArgs)]
+pub(crate) struct ConvertArgs {
+    /// Scene file (.toml) or model (.gltf, .glb, .obj, .ply, .stl); - reads a scene from standard input
+    pub(crate) scene: PathBuf,
+    /// Scene file to write (.toml); meshes and pictures go into a folder beside it
+    pub(crate) output: PathBuf,
+    /// Replace what is there
+    #[arg(long)]
+    pub(crate) force: bool,
+    /// Size of the picture, which the camera in front of a model depends on
+    #[arg(short, long, value_name = "WxH", value_parser = resolution)]
+    pub(crate) resolution: Option<(u32, u32)>,
+    /// Change a value of the scene, as in -D camera.vfov=30
+    #[arg(short = 'D', value_name = "KEY=VALUE", value_parser = setting)]
+    pub(crate) set: Vec<Override>,
+    /// Take warnings about the scene for errors
+    #[arg(long)]
+    pub(crate) strict: bool,
+    /// Say nothing but errors
+    #[arg(short, long)]
+    pub(crate) quiet: bool,
+    /// Say more
+    #[arg(short, long, conflicts_with = "quiet")]
+    pub(crate) verbose: bool,
+    #[command(flatten)]
+    pub(crate) model: ModelArgs,
+    #[command(flatten)]
+    pub(crate) setup: SetupArgs,
 }
 
 #[derive(Debug, ClapArgs)]

@@ -40,6 +40,7 @@ impl Error {
         match self {
             Self::Usage(_) | Self::Io(eyebeam_io::Error::UnknownFormat { .. }) => 2,
             Self::Io(eyebeam_io::Error::Scene(all)) if all.iter().all(|d| d.unreadable) => 4,
+            Self::Io(eyebeam_io::Error::File(e)) if e.memory => 5,
             Self::Io(eyebeam_io::Error::Scene(_) | eyebeam_io::Error::File(_)) | Self::Scene(_) => 3,
             Self::Io(eyebeam_io::Error::Io { .. }) | Self::Stdout(_) => 4,
             Self::Memory { .. } => 5,
@@ -50,7 +51,7 @@ impl Error {
 }
 
 /// `12.3 GiB`
-fn bytes(n: u64) -> String {
+pub(crate) fn bytes(n: u64) -> String {
     let units = ["B", "KiB", "MiB", "GiB", "TiB", "PiB", "EiB"];
     let power = (n.max(1).ilog2() / 10) as usize;
     format!("{:.1} {}", n as f64 / (1_u64 << (10 * power)) as f64, units[power])

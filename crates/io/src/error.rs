@@ -56,6 +56,8 @@ pub struct FileError {
     pub at: At,
     /// What to do about it.
     pub hint: Option<String>,
+    /// Whether the file may be right: it only takes more memory than is allowed.
+    pub memory: bool,
 }
 
 /// Where in a file.
@@ -72,7 +74,7 @@ pub enum At {
 impl FileError {
     /// Of a file that has no name yet: [`Self::of`] gives it.
     pub(crate) fn new(message: impl Into<String>) -> Self {
-        Self { file: String::new(), message: message.into(), at: At::File, hint: None }
+        Self { file: String::new(), message: message.into(), at: At::File, hint: None, memory: false }
     }
 
     pub(crate) fn at(self, at: At) -> Self {
@@ -162,7 +164,7 @@ pub(crate) fn fmt_report(
 }
 
 /// Names come from files: a line stays a line, no longer than one can read, and a terminal is told nothing.
-fn visible(text: &str) -> String {
+pub fn visible(text: &str) -> String {
     const LONGEST: usize = 500;
     let mut line = String::new();
     for c in text.chars().take(LONGEST) {

@@ -58,6 +58,18 @@ fn read(bytes: &[u8]) -> Result<(IesProfile, Vec<Warning>), FileError> {
     Ok((profile, warnings))
 }
 
+/// A profile as a file of 2002, which reads back the same.
+pub fn encode_ies(profile: &IesProfile) -> Vec<u8> {
+    let line = |numbers: &[f32]| numbers.iter().map(ToString::to_string).collect::<Vec<_>>().join(" ") + "\n";
+    let (vertical, horizontal) = (profile.vertical(), profile.horizontal());
+    let mut text = "IESNA:LM-63-2002\nTILT=NONE\n".to_owned();
+    text += &format!("1 -1 1 {} {} 1 2 0 0 0\n1 1 0\n", vertical.len(), horizontal.len());
+    text += &line(vertical);
+    text += &line(horizontal);
+    profile.candela().chunks(vertical.len().max(1)).for_each(|column| text += &line(column));
+    text.into_bytes()
+}
+
 /// Reads up to `TILT=`: whether the file is of 1986 or 1991, what the tilt is, and where numbers begin.
 fn read_labels(bytes: &[u8]) -> Result<(bool, &[u8], Numbers<'_>), FileError> {
     let first = bytes.trim_ascii_start();
@@ -139,6 +151,13 @@ impl Numbers<'_> {
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn profiles_read_back() {
+        let candela = vec![0.1, 1e-7, 3.3e5, 0.0, 7.0, 1.0 / 3.0];
+        let profile = IesProfile::new(vec![0.0, 45.5, 90.0], vec![0.0, 90.0], candela).unwrap();
+        assert_eq!(read_ies_bytes("a.ies", &encode_ies(&profile)).unwrap(), (profile, vec![]));
+    }
 
     #[test]
     fn old_files_have_two_factors() {

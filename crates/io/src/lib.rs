@@ -7,6 +7,7 @@ pub mod error;
 mod file;
 pub mod ies;
 pub mod image;
+mod memory;
 pub mod output;
 pub mod scene;
 mod warning;

@@ -1,5 +1,6 @@
 //! How models are read and shown: what their files do not say.
 
+use std::convert::Infallible;
 use std::path::PathBuf;
 use std::str::FromStr;
 
@@ -22,17 +23,19 @@ pub(crate) struct ModelArgs {
     /// Variant of the model's materials, by its name or number [default: those of the file]
     #[arg(long, value_name = "NAME")]
     pub(crate) variant: Option<String>,
+    /// Scene of a .gltf or .glb that has several, by its name or number [default: the one that it says]
+    #[arg(long = "scene", id = "which_scene", value_name = "NAME")]
+    pub(crate) scene: Option<String>,
+    /// Let a model name files outside of its folder
+    #[arg(long)]
+    pub(crate) allow_outside: bool,
 }
 
 impl ModelArgs {
     pub(crate) fn options<'a>(&'a self, overrides: &'a [Override]) -> ReadOptions<'a> {
-        ReadOptions {
-            overrides,
-            up: self.up,
-            animation: self.animation.as_deref(),
-            at: self.at,
-            variant: self.variant.as_deref(),
-        }
+        let Self { up, at, allow_outside, .. } = *self;
+        let [animation, scene, variant] = [&self.animation, &self.scene, &self.variant].map(Option::as_deref);
+        ReadOptions { overrides, up, animation, at, variant, scene, allow_outside, ..ReadOptions::default() }
     }
 }
 
@@ -40,8 +43,8 @@ impl ModelArgs {
 #[derive(Clone, Debug, ClapArgs)]
 #[command(next_help_heading = "Models (.gltf, .glb, .obj, .ply, .stl)")]
 pub(crate) struct SetupArgs {
-    /// Put the eye in front of the model, even if the file says where it is
-    #[arg(long, value_name = "auto")]
+    /// Camera of the file, by its name or number; auto is one in front of the model [default: the file's first, or auto]
+    #[arg(long, value_name = "NAME")]
     pub(crate) camera: Option<CameraArg>,
     /// Light from outside: studio, sky, none, or a picture (.hdr, .exr) [default: studio, unless the file has light]
     #[arg(long, value_name = "ENV")]
@@ -55,6 +58,15 @@ pub(crate) struct SetupArgs {
 }
 
 impl SetupArgs {
+    /// How the file is read, with the camera that is chosen in it.
+    pub(crate) fn options<'a>(&'a self, model: &'a ModelArgs, overrides: &'a [Override]) -> ReadOptions<'a> {
+        let camera = match &self.camera {
+            Some(CameraArg::Named(name)) => Some(name.as_str()),
+            Some(CameraArg::Auto) | None => None,
+        };
+        ReadOptions { camera, ..model.options(overrides) }
+    }
+
     /// Whether there is a ground, if that was said.
     pub(crate) fn wants_ground(&self) -> Option<bool> {
         match (self.ground, self.no_ground) {
@@ -66,17 +78,19 @@ impl SetupArgs {
 }
 
 /// Where the eye is.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Debug, PartialEq, Eq)]
 pub(crate) enum CameraArg {
     /// In front of the model.
     Auto,
+    /// That of the file of such a name or number.
+    Named(String),
 }
 
 impl FromStr for CameraArg {
-    type Err = &'static str;
+    type Err = Infallible;
 
     fn from_str(text: &str) -> Result<Self, Self::Err> {
-        if text == "auto" { Ok(Self::Auto) } else { Err("use auto") }
+        Ok(if text == "auto" { Self::Auto } else { Self::Named(text.to_owned()) })
     }
 }
 

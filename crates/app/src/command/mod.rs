@@ -1,42 +1,36 @@
 //! The commands, each a file.
 
 mod check;
+mod convert;
 mod develop;
 mod figures;
+mod info;
 mod render;
+mod report;
 mod schema;
 mod selftest;
 mod setup;
 mod target;
+mod turntable;
 
 use std::io::{Write, stdout};
 use std::path::Path;
 
-use eyebeam_io::scene::SceneFile;
-
 use crate::args::{Args, Command};
 use crate::error::Error;
-use crate::progress::say;
 
 pub(crate) fn run(args: Args) -> Result<(), Error> {
     match args.command {
         Command::Render(args) => render::run(&args),
+        Command::Turntable(args) => turntable::run(&args),
         Command::Develop(args) => develop::run(&args),
         Command::Check(args) => check::run(&args),
+        Command::Convert(args) => convert::run(&args),
+        Command::Info(args) => info::run(&args),
         Command::Schema => schema::run(),
         Command::Figures(args) => figures::run(&args),
         Command::Selftest => selftest::run(),
     }
-}
-
-/// Says of a scene, if asked to, what is worth a word; if `strict`, that is an error.
-fn told(file: SceneFile, strict: bool, quiet: bool) -> Result<SceneFile, Error> {
-    if strict && !file.warnings.is_empty() {
-        let errors = file.warnings.into_iter().map(Into::into).collect();
-        return Err(eyebeam_io::Error::Scene(errors).into());
-    }
-    file.warnings.iter().filter(|_| !quiet).for_each(|warning| say(&warning.to_string()));
-    Ok(file)
 }
 
 /// Whether a name stands for standard input or output.

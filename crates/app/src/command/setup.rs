@@ -3,16 +3,18 @@
 use std::sync::Arc;
 
 use eyebeam_core::light::ImageEnvironment;
-use eyebeam_core::setup::{Assumed, Setup, Surroundings};
+use eyebeam_core::look::Exposure;
+use eyebeam_core::setup::{Assumed, Given, Setup, Surroundings};
 use eyebeam_io::image::read_image;
 use eyebeam_io::scene::SceneFile;
 
-use crate::args::{EnvironmentArg, SetupArgs};
+use crate::args::{CameraArg, EnvironmentArg, SetupArgs};
 use crate::error::Error;
+use crate::progress::say;
 
 /// Adds it, as the command line says; what could not be kept of a picture goes to the warnings.
 pub(super) fn complete(
-    SceneFile { desc, warnings, given }: &mut SceneFile,
+    SceneFile { desc, warnings, given, memory, .. }: &mut SceneFile,
     args: &SetupArgs,
 ) -> Result<Assumed, Error> {
     let surroundings = match &args.env {
@@ -23,10 +25,24 @@ pub(super) fn complete(
         Some(EnvironmentArg::Picture(path)) => {
             let (image, more) = read_image(path)?;
             warnings.extend(more);
+            *memory += size_of_val(image.pixels()) as u64;
             let (file, image) = (path.display().to_string(), Some(Arc::new(image)));
             Surroundings::Image(ImageEnvironment { file, rotation: 0.0, scale: 1.0, image })
         }
     };
-    let setup = Setup { own_camera: args.camera.is_some(), surroundings, ground: args.wants_ground() };
+    let setup = Setup { own_camera: args.camera == Some(CameraArg::Auto), surroundings, ground: args.wants_ground() };
     Ok(setup.complete(desc, *given))
+}
+
+/// Says what was made up.
+pub(super) fn say_of(Assumed { what, .. }: &Assumed) {
+    if !what.is_empty() {
+        say(&format!("made up: {}", what.join(", ")));
+    }
+}
+
+/// The exposure if nobody says one and it is not that of scene files: nobody knows how bright the light of a model is, unless it is the
+/// studio's.
+pub(super) fn exposure(given: Given, assumed: &Assumed) -> Option<Exposure> {
+    (given != Given::ALL && !assumed.is_studio).then_some(Exposure::Auto)
 }

@@ -66,7 +66,10 @@ fn warnings_are_told_once() {
     let run = place.run(render).ends_with(0);
     assert!(run.stderr.starts_with(said) && told(&run.stderr) == 1, "{}", run.stderr);
     let warnings = &place.json("a.json")["warnings"];
-    assert_eq!(*warnings, serde_json::json!(["dark.toml:1:2: nothing shines: the picture will be black"]));
+    let message = "nothing shines: the picture will be black";
+    assert_eq!((&warnings[0]["message"], &warnings[0]["count"]), (&message.into(), &1.into()));
+    assert_eq!(warnings[0]["place"], serde_json::json!({ "file": "dark.toml", "line": 1, "column": 2 }));
+    assert!(warnings[0]["hint"].is_string() && warnings[1].is_null(), "{warnings}");
     assert_eq!(place.run(&format!("{render} -q")).ends_with(0).stderr, "");
     place.run("render scene.toml -r 8x8 --spp 1 -o a.png --stats a.json").ends_with(0);
     assert_eq!(place.json("a.json")["warnings"], serde_json::json!([]));

@@ -1,18 +1,23 @@
 //! The command as a user meets it: what it prints, writes and returns.
 
 mod aov;
+mod convert;
 mod determinism;
 mod develop;
 mod examples;
 mod files;
 mod gallery;
+mod info;
+mod made;
 mod models;
 mod output;
 mod pictures;
+mod report;
 mod selftest;
 #[cfg(unix)]
 mod signals;
 mod streams;
+mod turntable;
 mod usage;
 
 use std::fs;

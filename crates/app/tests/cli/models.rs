@@ -47,3 +47,31 @@ fn a_mesh_alone_is_a_picture() {
     let rows = (0..48).filter(|y| (0..64).any(|x| covered(y * 64 + x))).count();
     assert!((24..=41).contains(&rows), "{rows} of 48 rows");
 }
+
+#[test]
+fn what_takes_more_memory_than_is_allowed_is_refused_by_name() {
+    let place = Place::new();
+    let count = 200_000;
+    let vertices: String = (0..count).map(|i| format!("{i} 0 0\n")).collect();
+    let header = format!(
+        "ply\nformat ascii 1.0\nelement vertex {count}\nproperty float x\nproperty float y\nproperty float z\n"
+    );
+    place.write(
+        "a.ply",
+        &format!("{header}element face 1\nproperty list uchar int vertex_indices\nend_header\n{vertices}3 0 1 2\n"),
+    );
+    place.write("scene.toml", "[[shape.mesh]]\nfile = \"a.ply\"\n");
+    for command in ["check a.ply", "render a.ply -r 4x4 --spp 1"] {
+        let run = place.run(&format!("{command} --memory 2M")).ends_with(5);
+        assert!(
+            run.stderr.contains("it would take 3 MiB of memory, and 2 MiB are allowed\n  --> a.ply"),
+            "{}",
+            run.stderr
+        );
+        place.run(&format!("{command} --memory 4M")).ends_with(0);
+    }
+    // What the picture needs comes on top.
+    place.run("render a.ply -r 100x100 --spp 1 --memory 4M").ends_with(5);
+    let run = place.run("check scene.toml --memory 2M").ends_with(3);
+    assert!(run.stderr.contains("`a.ply` is not read: it would take 3 MiB"), "{}", run.stderr);
+}

@@ -108,6 +108,12 @@ impl Lights {
         Self { lights: Vec::new(), selector, environment, disks, weights, weights_sum }
     }
 
+    /// With others that are infinitely far away.
+    pub(crate) fn surrounded(self, environment: Environment, disks: Vec<Disk>) -> Self {
+        let Self { lights, selector, .. } = self;
+        Self { lights, selector, ..Self::far(environment, disks) }
+    }
+
     /// With those that are somewhere.
     pub(crate) fn with_near(self, lights: Vec<Light>, selection: LightSelection) -> Self {
         let bounds: Vec<_> = lights.iter().map(Light::bounds).collect();

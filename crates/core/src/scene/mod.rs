@@ -5,6 +5,7 @@ mod geometry;
 mod lamps;
 mod met;
 mod placement;
+mod view;
 
 pub use eyebeam_bvh::{Bvh, Ray, Slot};
 

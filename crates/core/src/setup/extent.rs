@@ -35,7 +35,7 @@ impl Extent {
         Some(if whole.size() > MUCH * middle.size() && middle.size() > 0.0 { middle } else { whole })
     }
 
-    fn around(points: impl Iterator<Item = Vec3>) -> Option<Self> {
+    pub(super) fn around(points: impl Iterator<Item = Vec3>) -> Option<Self> {
         let boxed = points.map(|p| Self { min: p, max: p });
         boxed.reduce(|a, b| Self { min: a.min.min(b.min), max: a.max.max(b.max) })
     }

@@ -13,7 +13,7 @@ use crate::setup::extent::Extent;
 /// Vertical angle of view, degrees: that of a portrait lens.
 const VFOV: f32 = 28.0;
 /// How much of the picture's width or height is filled.
-const FILL: f32 = 0.74;
+pub(super) const FILL: f32 = 0.74;
 
 /// A camera in front of what there is, for pictures so many times as wide as high.
 pub(super) fn in_front(points: &[Vec3], faces: &[[Vec3; 3]], extent: &Extent, aspect: f32) -> CameraDesc {

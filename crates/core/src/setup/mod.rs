@@ -9,6 +9,9 @@ mod eye;
 mod lamp;
 mod room;
 mod studio;
+mod turntable;
+
+use glam::Vec3;
 
 use crate::desc::SceneDesc;
 use crate::light::sky::SkyDesc;
@@ -16,6 +19,8 @@ use crate::light::{EnvironmentDesc, ImageEnvironment};
 
 use extent::Extent;
 use room::Room;
+
+pub use turntable::{Turntable, View};
 
 /// What a file says, besides what there is to see.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
@@ -115,6 +120,11 @@ impl Setup {
         }
         assumed
     }
+}
+
+/// The least and the greatest coordinates of all shapes, metres; none if there are none.
+pub fn bounds(desc: &SceneDesc) -> Option<[Vec3; 2]> {
+    Extent::around(extent::points(desc).into_iter()).map(|Extent { min, max }| [min, max])
 }
 
 /// A name that no material and no texture has.

@@ -220,6 +220,20 @@ impl MeshDesc {
         self.mesh().triangles.len()
     }
 
+    /// Of its lists, once the file is loaded.
+    pub fn bytes(&self) -> usize {
+        let Mesh { vertices, triangles, normals, uvs, uvs_1, tangents, colors, alphas } = self.mesh();
+        size_of_val(vertices)
+            + size_of_val(triangles)
+            + size_of_val(normals)
+            + size_of_val(uvs)
+            + size_of_val(uvs_1)
+            + size_of_val(tangents)
+            + size_of_val(colors)
+            + size_of_val(alphas)
+            + size_of_val(&*self.instances)
+    }
+
     /// The vertices, once the file is loaded.
     pub fn vertices(&self) -> &[[f32; 3]] {
         self.mesh().vertices

@@ -81,6 +81,16 @@ pub fn encode_channels(
     bytes(&file)
 }
 
+/// Channels of colours by their names, and nothing else.
+pub(super) fn encode_samples(
+    [width, height]: [u32; 2],
+    channels: Vec<(&str, FlatSamples)>,
+) -> std::result::Result<Vec<u8>, Error> {
+    let list = channels.into_iter().map(|(name, samples)| AnyChannel::new(name, samples)).collect();
+    let attributes = LayerAttributes { software_name: Some(Text::from("Eyebeam")), ..LayerAttributes::default() };
+    bytes(&image([width as usize, height as usize], attributes, AnyChannels::sort(list)))
+}
+
 fn samples(values: impl Iterator<Item = f32>, half: bool) -> FlatSamples {
     if half { FlatSamples::F16(values.map(to_half).collect()) } else { FlatSamples::F32(values.collect()) }
 }
@@ -93,12 +103,20 @@ fn file<'c, C: WritableChannels<'c> + 'c>(
 ) -> std::result::Result<Image<Layer<C>>, Error> {
     let mut attributes = LayerAttributes { software_name: Some(Text::from("Eyebeam")), ..LayerAttributes::default() };
     attributes.other.insert(Text::from("eyebeam"), plain_text(provenance)?);
-    let size = (image.width() as usize, image.height() as usize);
+    Ok(self::image([image.width() as usize, image.height() as usize], attributes, channels))
+}
+
+/// A file of one layer.
+fn image<'c, C: WritableChannels<'c> + 'c>(
+    [width, height]: [usize; 2],
+    attributes: LayerAttributes,
+    channels: C,
+) -> Image<Layer<C>> {
     let encoding =
         Encoding { compression: Compression::ZIP16, blocks: Blocks::ScanLines, line_order: LineOrder::Increasing };
-    let mut file = Image::from_layer(Layer::new(size, attributes, encoding, channels));
+    let mut file = Image::from_layer(Layer::new((width, height), attributes, encoding, channels));
     file.attributes.chromaticities = Some(REC_709);
-    Ok(file)
+    file
 }
 
 fn plain_text(text: &str) -> std::result::Result<AttributeValue, Error> {

@@ -4,13 +4,15 @@ mod encoding;
 mod exr;
 mod hdr;
 mod jpeg;
+mod lossless;
 mod png;
 mod read;
 
 pub use encoding::{Bits, Encoding};
 pub use exr::encode_channels;
+pub use lossless::{encode_light, encode_pixels};
 pub use read::{
-    LinearPicture, pixels_size, read_image, read_image_bytes, read_linear, read_linear_bytes, read_pixels,
+    LinearPicture, image_size, pixels_size, read_image, read_image_bytes, read_linear, read_linear_bytes, read_pixels,
     read_pixels_bytes,
 };
 

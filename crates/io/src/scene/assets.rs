@@ -12,14 +12,13 @@ use eyebeam_core::light::{EnvironmentDesc, IesProfile};
 use eyebeam_core::shape::MeshData;
 
 use crate::error::{At, Error, FileError};
-use crate::ies::read_ies;
-use crate::image::read_image;
-use crate::scene::ply::{self, read_ply};
+use crate::file;
+use crate::ies::read_ies_bytes;
+use crate::image::{image_size, read_image_bytes};
+use crate::memory::Memory;
+use crate::scene::ply::{mesh_size, read_ply_bytes};
 use crate::scene::textures;
 use crate::warning::Warning;
-
-/// No more files are read once those before take so much memory.
-pub(super) const MAX_BYTES: u64 = 16 << 30;
 
 /// What is to be said about a file, where its name stands.
 pub(super) struct Note {
@@ -41,8 +40,12 @@ pub(super) enum Kind {
 }
 
 /// Reads all files that are named. `folder_of` tells where relative names at a path of keys are looked for.
-pub(super) fn load<'a>(desc: &mut SceneDesc, folder_of: impl Fn(&[String]) -> Option<&'a Path>) -> Vec<Note> {
-    let mut loader = Loader { folder_of, bytes: 0, notes: Vec::new() };
+pub(super) fn load<'a>(
+    desc: &mut SceneDesc,
+    memory: &Memory,
+    folder_of: impl Fn(&[String]) -> Option<&'a Path>,
+) -> Vec<Note> {
+    let mut loader = Loader { folder_of, memory, notes: Vec::new() };
     let mut images = Cache::default();
     if let EnvironmentDesc::Image(map) = &mut desc.environment {
         map.image = loader.get(&mut images, path(&["environment", "image"], None), &map.file);
@@ -72,52 +75,40 @@ pub(super) fn path(keys: &[&str], index: Option<usize>) -> Vec<String> {
 
 /// What a file becomes.
 trait Asset: Sized {
-    fn read(path: &Path) -> Result<(Self, Vec<Warning>), Error>;
+    /// The memory that it takes, about, by its header alone.
+    fn size(name: &str, bytes: &[u8]) -> Result<u64, Error>;
 
-    /// The memory that it takes, about.
-    fn bytes(&self) -> usize;
+    fn read(name: &str, bytes: &[u8]) -> Result<(Self, Vec<Warning>), Error>;
 }
 
 impl Asset for Image {
-    fn read(path: &Path) -> Result<(Self, Vec<Warning>), Error> {
-        read_image(path)
+    fn size(name: &str, bytes: &[u8]) -> Result<u64, Error> {
+        image_size(name, bytes)
     }
 
-    fn bytes(&self) -> usize {
-        size_of_val(self.pixels())
+    fn read(name: &str, bytes: &[u8]) -> Result<(Self, Vec<Warning>), Error> {
+        read_image_bytes(name, bytes)
     }
 }
 
 impl Asset for IesProfile {
-    fn read(path: &Path) -> Result<(Self, Vec<Warning>), Error> {
-        read_ies(path)
+    fn size(_: &str, bytes: &[u8]) -> Result<u64, Error> {
+        // A number takes two bytes of text at least.
+        Ok(2 * bytes.len() as u64)
     }
 
-    fn bytes(&self) -> usize {
-        size_of_val(self.candela())
-    }
-}
-
-impl From<ply::MeshData> for MeshData {
-    fn from(ply::MeshData { vertices, normals, uvs, colors, triangles }: ply::MeshData) -> Self {
-        Self { vertices, triangles, normals, uvs, colors, ..Self::default() }
+    fn read(name: &str, bytes: &[u8]) -> Result<(Self, Vec<Warning>), Error> {
+        read_ies_bytes(name, bytes)
     }
 }
 
 impl Asset for MeshData {
-    fn read(path: &Path) -> Result<(Self, Vec<Warning>), Error> {
-        Ok((read_ply(path)?.into(), Vec::new()))
+    fn size(name: &str, bytes: &[u8]) -> Result<u64, Error> {
+        mesh_size(name, bytes)
     }
 
-    fn bytes(&self) -> usize {
-        size_of_val(&*self.vertices)
-            + size_of_val(&*self.triangles)
-            + size_of_val(&*self.normals)
-            + size_of_val(&*self.uvs)
-            + size_of_val(&*self.uvs_1)
-            + size_of_val(&*self.tangents)
-            + size_of_val(&*self.alphas)
-            + size_of_val(&*self.colors)
+    fn read(name: &str, bytes: &[u8]) -> Result<(Self, Vec<Warning>), Error> {
+        Ok((read_ply_bytes(name, bytes)?, Vec::new()))
     }
 }
 
@@ -161,10 +152,10 @@ impl From<Error> for Failure {
 }
 
 /// Reads files, and remembers what is to be said of them.
-pub(super) struct Loader<F> {
+pub(super) struct Loader<'m, F> {
     folder_of: F,
     /// That what was read takes.
-    bytes: u64,
+    memory: &'m Memory,
     notes: Vec<Note>,
 }
 
@@ -176,7 +167,7 @@ pub(super) struct Found {
     pub(super) real: PathBuf,
 }
 
-impl<'a, F: Fn(&[String]) -> Option<&'a Path>> Loader<F> {
+impl<'a, F: Fn(&[String]) -> Option<&'a Path>> Loader<'_, F> {
     /// The file that is named at a path of keys; none, and a note, if it cannot be had.
     fn get<T: Asset>(&mut self, cache: &mut Cache<T>, path: Vec<String>, name: &str) -> Option<Arc<T>> {
         let asset = self.read_once(cache, &path, name);
@@ -213,14 +204,11 @@ impl<'a, F: Fn(&[String]) -> Option<&'a Path>> Loader<F> {
         Ok(Found { file, real })
     }
 
-    /// Counts memory that is about to be used; fails if those before have used too much.
+    /// Counts memory that is about to be used; fails if there is not so much left.
     pub(super) fn take(&mut self, bytes: u64) -> Result<(), Failure> {
-        if self.bytes > MAX_BYTES {
-            let message = format!("is not read: the files before it take more than {} GiB", MAX_BYTES >> 30);
-            return Err(Failure::wrong(&message, "use fewer or smaller files"));
-        }
-        self.bytes = self.bytes.saturating_add(bytes);
-        Ok(())
+        let failure =
+            |e: FileError| Failure { message: format!("is not read: {}", e.message), hint: e.hint, kind: Kind::Wrong };
+        self.memory.take(bytes).map_err(failure)
     }
 
     fn read_once<T: Asset>(&mut self, cache: &mut Cache<T>, path: &[String], name: &str) -> Result<Arc<T>, Failure> {
@@ -234,9 +222,9 @@ impl<'a, F: Fn(&[String]) -> Option<&'a Path>> Loader<F> {
     }
 
     fn read<T: Asset>(&mut self, file: &Path, path: &[String], name: &str) -> Result<Arc<T>, Failure> {
-        self.take(0)?;
-        let (asset, warnings) = T::read(file)?;
-        self.take(asset.bytes() as u64)?;
+        let (of, bytes) = (file.display().to_string(), file::read(file)?);
+        self.take(T::size(&of, &bytes)?)?;
+        let (asset, warnings) = T::read(&of, &bytes)?;
         self.warn(path, name, warnings);
         Ok(Arc::new(asset))
     }

@@ -1,6 +1,7 @@
 //! Scene files.
 
 mod assets;
+mod contents;
 mod explain;
 mod merge;
 mod model;
@@ -9,16 +10,19 @@ pub mod ply;
 mod source;
 mod textures;
 mod toml;
+mod write;
 
 use std::path::Path;
 
 use eyebeam_core::desc::SceneDesc;
 use eyebeam_core::setup::Given;
 
-use crate::error::Error;
+use crate::error::{Diagnostic, Error};
 use crate::warning::Warning;
 
-pub use model::{MODEL_FORMATS, ModelFormat, Up};
+pub use contents::{Animation, Contents, NamedCamera};
+pub use model::{Files, MODEL_FORMATS, ModelFormat, Up};
+pub use write::{WriteOptions, Written, check_unwritten, write};
 
 /// A scene as it was read, with all the files that it names.
 #[derive(Clone, Debug)]
@@ -29,6 +33,10 @@ pub struct SceneFile {
     pub warnings: Vec<Warning>,
     /// What it says of camera and light; a scene file says everything.
     pub given: Given,
+    /// About the memory that its meshes and pictures take, bytes.
+    pub memory: u64,
+    /// What else there is in the file.
+    pub contents: Contents,
 }
 
 /// How scenes are read.
@@ -44,6 +52,14 @@ pub struct ReadOptions<'a> {
     pub at: f32,
     /// The variant of a model's materials, by its name or its number from 0; those of the file if none is said.
     pub variant: Option<&'a str>,
+    /// The most memory that its meshes and pictures may take, bytes; 16 GiB if none is said.
+    pub memory: Option<u64>,
+    /// The scene of a model, by its name or its number from 0; the one that the file says if none is said.
+    pub scene: Option<&'a str>,
+    /// The camera of a model, by its name or its number from 0; the first if none is said.
+    pub camera: Option<&'a str>,
+    /// Whether a model may name files outside of its folder.
+    pub allow_outside: bool,
 }
 
 /// A setting from outside the file, `key.key=value`: stronger than what the file says.
@@ -72,9 +88,43 @@ pub fn read(path: &Path, overrides: &[Override]) -> Result<SceneFile, Error> {
 /// Everything that is wrong with it, or why it cannot be read.
 pub fn read_with(path: &Path, options: &ReadOptions<'_>) -> Result<SceneFile, Error> {
     match model::format_of(path) {
-        Some(format) => model::read(format, path, options),
-        None => toml::read(source::Sources::load(path)?, options.overrides),
+        Some(format) => model::read(format, &model::Input::file(path, options.allow_outside), options),
+        None => scene_file(source::Sources::load(path)?, options),
     }
+}
+
+/// As [`read_with`], from the bytes of a file, whose name tells what it is and stands for it in errors; where the files are that it
+/// names is said.
+///
+/// # Errors
+/// Everything that is wrong with it, or why it cannot be read.
+pub fn read_bytes(name: &str, bytes: &[u8], files: Files<'_>, options: &ReadOptions<'_>) -> Result<SceneFile, Error> {
+    match model::format_of(Path::new(name)) {
+        Some(format) => model::read(format, &model::Input::given(name, bytes, files), options),
+        None => scene_file(source::Sources::from_bytes(name, bytes, files)?, options),
+    }
+}
+
+fn scene_file(sources: source::Sources, options: &ReadOptions<'_>) -> Result<SceneFile, Error> {
+    refuse_choices(options)?;
+    let mut file = toml::read(sources, options)?;
+    if options.up.is_some() {
+        file.warnings.push(Warning::new("scene files say what is up: `--up` is not used"));
+    }
+    Ok(file)
+}
+
+/// A scene file has nothing to choose.
+fn refuse_choices(options: &ReadOptions<'_>) -> Result<(), Error> {
+    let ReadOptions { scene, camera, animation, variant, .. } = *options;
+    let choices = [("scene", scene), ("camera", camera), ("animation", animation), ("variant", variant)];
+    let refused = choices.into_iter().filter_map(|(kind, wanted)| {
+        let message =
+            format!("there is no {kind} `{}`: this is a scene file, and `--{kind}` chooses in models", wanted?);
+        Some(Diagnostic { message, place: None, hint: Some(format!("leave `--{kind}` out")), unreadable: false })
+    });
+    let refused: Vec<_> = refused.collect();
+    if refused.is_empty() { Ok(()) } else { Err(Error::Scene(refused)) }
 }
 
 /// Reads and checks a scene from text; `name` stands for the file in errors. It has no folder: it can
@@ -83,7 +133,7 @@ pub fn read_with(path: &Path, options: &ReadOptions<'_>) -> Result<SceneFile, Er
 /// # Errors
 /// Everything that is wrong with it.
 pub fn read_str(name: &str, text: &str, overrides: &[Override]) -> Result<SceneFile, Error> {
-    toml::read(source::Sources::from_text(name, text)?, overrides)
+    toml::read(source::Sources::from_text(name, text)?, &ReadOptions { overrides, ..ReadOptions::default() })
 }
 
 /// The JSON Schema of scene files.

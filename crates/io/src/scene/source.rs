@@ -10,6 +10,7 @@ use toml::Spanned;
 use toml::de::{DeTable, DeValue};
 
 use crate::error::{Diagnostic, Error, Place};
+use crate::scene::model::Files;
 use crate::scene::nesting;
 use crate::warning::Warning;
 
@@ -65,6 +66,21 @@ impl Sources {
     pub(super) fn from_text(name: &str, text: &str) -> Result<Self, Error> {
         let mut sources = Self::default();
         sources.load_text(name.to_owned(), text.to_owned(), None, &mut Vec::new())?;
+        sources.finish()
+    }
+
+    /// As [`load`](Self::load), from bytes.
+    ///
+    /// # Errors
+    /// If they are no TOML, or it includes what it must not.
+    pub(super) fn from_bytes(name: &str, bytes: &[u8], files: Files<'_>) -> Result<Self, Error> {
+        let mut sources = Self::default();
+        let path = Path::new(name);
+        let text = text_of(path, read_all(bytes))?;
+        let folder = if let Files::In(folder) = files { Some(folder) } else { None };
+        let mut open =
+            Vec::from_iter(folder.and_then(|folder| Some(folder.canonicalize().ok()?.join(path.file_name()?))));
+        sources.load_text(name.to_owned(), text, folder, &mut open)?;
         sources.finish()
     }
 

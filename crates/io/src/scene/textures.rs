@@ -25,7 +25,7 @@ struct Encoded {
 
 /// Reads all pictures that textures name.
 pub(super) fn load<'a>(
-    loader: &mut Loader<impl Fn(&[String]) -> Option<&'a Path>>,
+    loader: &mut Loader<'_, impl Fn(&[String]) -> Option<&'a Path>>,
     textures: &mut BTreeMap<String, TextureDesc>,
 ) {
     let mut files: BTreeMap<PathBuf, Result<Encoded, Failure>> = BTreeMap::new();
@@ -55,10 +55,9 @@ pub(super) fn load<'a>(
 }
 
 /// The bytes of a file, if there is memory for them and for the picture.
-fn read<'a>(loader: &mut Loader<impl Fn(&[String]) -> Option<&'a Path>>, file: &Path) -> Result<Encoded, Failure> {
-    loader.take(0)?;
+fn read<'a>(loader: &mut Loader<'_, impl Fn(&[String]) -> Option<&'a Path>>, file: &Path) -> Result<Encoded, Failure> {
     let (name, bytes) = (file.display().to_string(), file::read(file)?);
-    loader.take(pixels_size(&name, &bytes)?)?;
+    loader.take(bytes.len() as u64 + pixels_size(&name, &bytes)?)?;
     Ok(Encoded { name, bytes })
 }
 

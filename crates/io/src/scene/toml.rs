@@ -14,6 +14,7 @@ use toml::Spanned;
 use toml::de::{DeTable, DeValue};
 
 use crate::error::Error;
+use crate::memory::Memory;
 use crate::scene::assets::{self, Kind, Note};
 use crate::scene::explain::{
     MISSING_MATERIAL, explain, lacks_kind, missing_material, nearest_material, place_name, quoted,
@@ -21,7 +22,7 @@ use crate::scene::explain::{
 use crate::scene::merge::{self, Table};
 use crate::scene::nesting::{self, MAX_DEPTH};
 use crate::scene::source::{Problem, Sources, into_error, into_warnings};
-use crate::scene::{Override, SceneFile};
+use crate::scene::{Contents, Override, ReadOptions, SceneFile};
 
 /// How many mistakes are looked for: each costs a walk through the scene, so fewer in long ones.
 fn most_problems(length: usize) -> usize {
@@ -29,11 +30,12 @@ fn most_problems(length: usize) -> usize {
 }
 
 /// The description in the first of `sources`, changed by settings.
-pub(super) fn read(mut sources: Sources, overrides: &[Override]) -> Result<SceneFile, Error> {
+pub(super) fn read(mut sources: Sources, options: &ReadOptions<'_>) -> Result<SceneFile, Error> {
     let settings: Vec<_> =
-        overrides.iter().map(|o| (o, sources.add_setting(format!("{}={}", o.path, o.value)))).collect();
+        options.overrides.iter().map(|o| (o, sources.add_setting(format!("{}={}", o.path, o.value)))).collect();
     let most = most_problems(sources.length());
-    let mut reader = Reader { sources: &sources, most, problems: Vec::new(), warnings: Vec::new() };
+    let memory = Memory::new(options.memory);
+    let mut reader = Reader { sources: &sources, memory: &memory, most, problems: Vec::new(), warnings: Vec::new() };
     let mut table = reader.table(0);
     for (setting, source) in settings {
         reader.set(&mut table, setting, source);
@@ -45,7 +47,9 @@ pub(super) fn read(mut sources: Sources, overrides: &[Override]) -> Result<Scene
     }
     let Reader { problems, warnings, .. } = reader;
     if problems.is_empty() {
-        Ok(SceneFile { desc, warnings: into_warnings(warnings), given: Given::ALL })
+        let contents = Contents { format: "scene", ..Contents::default() };
+        let (warnings, memory) = (into_warnings(warnings), memory.taken());
+        Ok(SceneFile { desc, warnings, given: Given::ALL, contents, memory })
     } else {
         Err(into_error(problems))
     }
@@ -53,6 +57,7 @@ pub(super) fn read(mut sources: Sources, overrides: &[Override]) -> Result<Scene
 
 struct Reader<'a> {
     sources: &'a Sources,
+    memory: &'a Memory,
     /// Where the list of problems ends.
     most: usize,
     problems: Vec<Problem>,
@@ -147,7 +152,7 @@ impl<'a> Reader<'a> {
     /// Loads the files that the scene names; returns the paths of those names that lead nowhere.
     fn load(&mut self, desc: &mut SceneDesc, numbered: &Numbered<'_>) -> Vec<Vec<String>> {
         let sources = self.sources;
-        let notes = assets::load(desc, |path| sources.folder(numbered.span_of(path).start));
+        let notes = assets::load(desc, self.memory, |path| sources.folder(numbered.span_of(path).start));
         let mut missing = Vec::new();
         for Note { path, message, hint, kind } in notes {
             let span = numbered.span_of(&path);

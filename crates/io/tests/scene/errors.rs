@@ -140,7 +140,7 @@ fn materials_of_others() {
         "▸[material.a.mask]\nof = \"a\"\nopacity = 0.5",
         "[material.a.mix]\na = \"default\"\nb = ▸\"nothing\"\nshare = ▸2",
         "[material.a.mask]\nof = \"default\"\nopacity = ▸\"leaf\"",
-        "▸[material.a.mask]\nof = \"default\"",
+        "▸[material.a.mask]\nopacity = 1",
         "[material.a.normal-map]\nof = \"default\"\nmap = ▸\"waves\"\nstrength = ▸nan",
         "[material.a.bump]\nof = \"default\"\nheight = ▸1e9\nscale = ▸inf",
         "[material.a.null]\n▸opacity = 0",

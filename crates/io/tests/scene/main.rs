@@ -9,6 +9,7 @@ mod robustness;
 mod schema;
 mod settings;
 mod textures;
+mod write;
 
 use eyebeam_io::scene::{Override, read_str};
 use eyebeam_io::{Diagnostic, Error};

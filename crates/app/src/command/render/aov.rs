@@ -32,12 +32,11 @@ pub(super) struct About {
 }
 
 impl<'s> Aovs<'s> {
-    /// Those of the list, for the scene that `desc` is of.
-    pub(super) fn new(scene: &'s Scene, desc: &SceneDesc, settings: &Settings, list: Vec<Aov>, through: bool) -> Self {
+    /// Those of the list; `names` are those of ids, as JSON.
+    pub(super) fn new(scene: &'s Scene, settings: &Settings, list: Vec<Aov>, through: bool, names: &str) -> Self {
         let needed = list.iter().any(|aov| aov.is_of_first_hit());
         let hits = needed.then(|| FirstHits::new(scene, settings.clone(), through));
-        let names = if list.contains(&Aov::Id) { Names::of(desc) } else { Names::default() };
-        Self { list, through, names: serde_json::to_string(&names).unwrap_or_default(), hits }
+        Self { list, through, names: names.to_owned(), hits }
     }
 
     /// Bytes that they take, in the making and in the file.
@@ -79,6 +78,12 @@ impl<'s> Aovs<'s> {
         let hits = self.hits.as_ref().map_or(&[][..], FirstHits::pixels);
         Ok(encode_channels(&image, channels(&self.list, hits, film), &self.names, provenance, target.encoding.half)?)
     }
+}
+
+/// Names of the ids in a scene, as JSON, if they are asked for.
+pub(super) fn names(desc: &SceneDesc, list: &[Aov]) -> String {
+    let names = if list.contains(&Aov::Id) { Names::of(desc) } else { Names::default() };
+    serde_json::to_string(&names).unwrap_or_default()
 }
 
 /// Names of ids: that of id 3 is the third after the empty one.

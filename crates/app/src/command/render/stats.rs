@@ -3,12 +3,13 @@
 use eyebeam_core::desc::RenderDesc;
 use eyebeam_core::film::{ErrorEstimate, Film, SampleCounts};
 use eyebeam_core::look::Look;
-use eyebeam_io::{Place, Warning};
+use eyebeam_io::Warning;
 use serde::Serialize;
 
-use crate::args::RenderArgs;
-use crate::command::render::Described;
+use crate::args::PictureArgs;
 use crate::command::render::aov::About;
+use crate::command::render::session::Described;
+use crate::command::report::{self, Told};
 use crate::limits::peak_memory;
 
 /// What made a picture; enough to make the same bits again.
@@ -18,6 +19,9 @@ pub(super) struct Provenance<'a> {
     version: &'static str,
     /// The scene file, as it was named.
     scene: String,
+    /// Which picture of a turn it is.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    turntable: Option<Frame>,
     /// Settings of the command line that changed the scene.
     overrides: Vec<String>,
     /// SHA-256 of the scene with all that was included, changed and loaded, but for `settings`.
@@ -29,6 +33,15 @@ pub(super) struct Provenance<'a> {
     error: Option<Error>,
     #[serde(skip)]
     dropped: u64,
+}
+
+/// A picture of a turn; the scene's hash is that of the first.
+#[derive(Clone, Copy, Debug, Serialize)]
+pub(crate) struct Frame {
+    /// From 0.
+    pub(crate) frame: u32,
+    /// How many there are.
+    pub(crate) of: u32,
 }
 
 #[derive(Debug, Serialize)]
@@ -46,7 +59,7 @@ struct Error {
 
 impl<'a> Provenance<'a> {
     pub(super) fn new(
-        args: &RenderArgs,
+        args: &PictureArgs,
         scene: &Described<'a>,
         aov: About,
         film: &Film,
@@ -56,7 +69,8 @@ impl<'a> Provenance<'a> {
         Self {
             schema: "eyebeam-render-1",
             version: env!("CARGO_PKG_VERSION"),
-            scene: args.scene.display().to_string(),
+            scene: scene.file.display().to_string(),
+            turntable: scene.frame,
             overrides: args.set.iter().map(|o| format!("{}={}", o.path, o.value)).collect(),
             scene_hash: scene.hash,
             settings: scene.settings,
@@ -107,8 +121,9 @@ pub(super) struct Stats<'a> {
     rays_per_s: f64,
     peak_rss_bytes: Option<u64>,
     threads: usize,
-    warnings: Vec<String>,
-    /// The last one; those before have been told before the render.
+    /// What was ignored or approximated, and what is hardly meant.
+    warnings: Vec<Told<'a>>,
+    /// A word about samples that do not count; the others have been told before the render.
     #[serde(skip)]
     dropped_warning: Option<String>,
 }
@@ -117,7 +132,7 @@ impl<'a> Stats<'a> {
     pub(super) fn new(
         provenance: Provenance<'a>,
         look: Option<&'a Look>,
-        warnings: &[Warning],
+        warnings: &'a [Warning],
         phases: &Phases,
         work: &Done,
     ) -> Self {
@@ -136,7 +151,7 @@ impl<'a> Stats<'a> {
             rays_per_s: rays as f64 / phases.render,
             peak_rss_bytes: peak_memory(),
             threads,
-            warnings: warnings.iter().map(line).chain(dropped_warning.clone()).collect(),
+            warnings: report::told(warnings),
             dropped_warning,
         }
     }
@@ -152,13 +167,5 @@ impl<'a> Stats<'a> {
 
     pub(super) fn to_json(&self) -> String {
         serde_json::to_string_pretty(self).unwrap_or_default() + "\n"
-    }
-}
-
-/// `scene.toml:3:8: message`
-fn line(Warning { message, place, .. }: &Warning) -> String {
-    match place {
-        Some(Place { file, line, column }) => format!("{file}:{line}:{column}: {message}"),
-        None => message.clone(),
     }
 }

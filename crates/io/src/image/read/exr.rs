@@ -7,6 +7,7 @@ use std::io::Cursor;
 
 use exr::block::samples::FromNativeSample;
 use exr::block::{self, reader::Reader};
+use exr::compression::Compression;
 use exr::error::Error as ExrError;
 use exr::image::read::specific_channels::ReadSpecificChannel;
 use exr::math::Vec2;
@@ -21,13 +22,15 @@ use crate::error::FileError;
 use crate::image::exr::REC_709;
 use crate::image::read::pixels::{compact, pixels};
 use crate::image::read::repair::repair;
-use crate::image::read::{Decoded, LinearPicture, check_size};
+use crate::image::read::{DEFLATE, Decoded, LinearPicture, check_length, check_size};
 use crate::warning::Warning;
 
 /// Of a picture with alpha in single precision.
 const BYTES_PER_PIXEL: u64 = 16;
 /// A block of lines or a tile is decoded at once.
 const MAX_BLOCK: usize = 1 << 30;
+/// A small one may always be.
+const SMALL_BLOCK: u64 = 1 << 20;
 
 pub(super) fn decode(bytes: &[u8]) -> Decoded {
     let Opened { file, color, warnings, .. } = open(bytes)?;
@@ -125,7 +128,8 @@ fn open(bytes: &[u8]) -> Result<Opened<'_>, FileError> {
     let header = color.or_else(|| with(&["Y"])).ok_or_else(|| no_channels(headers))?;
     let Vec2(width, height) = header.layer_size;
     let memory = check_size(width as u64, height as u64, BYTES_PER_PIXEL)?;
-    if header.max_block_byte_size() > MAX_BLOCK {
+    check_length(bytes, width as u64, height as u64, pixels_in_byte(header.compression))?;
+    if header.max_block_byte_size() > block_limit(bytes, header.compression) {
         return Err(FileError::new("the blocks of the OpenEXR picture are too large").hint("store it in scan lines"));
     }
     let (color, alpha) = (color.is_some(), channel(header, "A"));
@@ -134,6 +138,26 @@ fn open(bytes: &[u8]) -> Result<Opened<'_>, FileError> {
     let half = read.all(|c| c.sample_type == SampleType::F16);
     let (provenance, warnings) = (provenance(header), warnings(header, !color));
     Ok(Opened { file, color, alpha, half, memory, provenance, warnings })
+}
+
+/// How many bytes a block can have that is in so many.
+fn block_limit(bytes: &[u8], compression: Compression) -> usize {
+    let gain = 4 * pixels_in_byte(compression);
+    (bytes.len() as u64).saturating_mul(gain).max(SMALL_BLOCK).min(MAX_BLOCK as u64) as usize
+}
+
+/// The most pixels that a byte can stand for: of one channel in 16 bits.
+fn pixels_in_byte(compression: Compression) -> u64 {
+    match compression {
+        Compression::Uncompressed => 1,
+        // Runs of 128 bytes in two, of which two are a pixel.
+        Compression::RLE => 32,
+        // 4 x 4 pixels in three bytes.
+        Compression::B44 | Compression::B44A => 6,
+        // Of 8 x 8 pixels there may be one number, which is deflated.
+        Compression::DWAA(_) | Compression::DWAB(_) => 64 * DEFLATE,
+        _ => DEFLATE,
+    }
 }
 
 fn provenance(header: &Header) -> Option<String> {

@@ -4,14 +4,18 @@
 //! the last one n times (old). Ward, "Real Pixels", Graphics Gems II, 1991; the Radiance file formats.
 
 use crate::error::{At, FileError};
-use crate::image::read::{Decoded, LINEAR, canvas, check_size};
+use crate::image::read::{Decoded, LINEAR, canvas, check_length, check_size};
 use crate::warning::Warning;
+
+/// The old way would allow any number; a run of the new one is of 127 pixels in eight bytes.
+const PIXELS_IN_BYTE: u64 = 1024;
 
 pub(super) fn decode(bytes: &[u8]) -> Decoded {
     let mut file = Bytes { bytes, at: 0 };
     let warnings = read_header(&mut file)?;
     let layout = read_layout(&mut file)?;
     let (width, height) = layout.size();
+    check_length(bytes, width, height, PIXELS_IN_BYTE)?;
     let mut image = canvas(width, height)?;
     let mut line = vec![[0; 4]; layout.minor.length as usize];
     for i in 0..layout.major.length {
@@ -29,7 +33,9 @@ pub(super) fn size(bytes: &[u8]) -> Result<u64, FileError> {
     let mut file = Bytes { bytes, at: 0 };
     read_header(&mut file)?;
     let (width, height) = read_layout(&mut file)?.size();
-    check_size(width, height, LINEAR)
+    let size = check_size(width, height, LINEAR)?;
+    check_length(bytes, width, height, PIXELS_IN_BYTE)?;
+    Ok(size)
 }
 
 fn read_layout(file: &mut Bytes) -> Result<Layout, FileError> {

@@ -7,14 +7,16 @@ use basisu::{DecodeFlags, TargetFormat, Transcoder};
 use eyebeam_core::texture::{Pixels, Samples};
 
 use crate::error::{At, FileError};
-use crate::image::read::check_size;
 use crate::image::read::pixels::{compact, pixels};
+use crate::image::read::{check_length, check_size};
 
 /// What each file begins with.
 pub(super) const MAGIC: [u8; 12] = *b"\xabKTX 20\xbb\r\n\x1a\n";
 
 /// Bytes of the decoded pixel, and of what is made on the way.
 const BYTES_PER_PIXEL: u64 = 6;
+/// Runs of equal blocks of 16 pixels, compressed once more.
+const PIXELS_IN_BYTE: u64 = 1 << 14;
 /// The decoder's limit, too.
 const MOST_LEVELS: u32 = 16;
 
@@ -37,10 +39,10 @@ pub(super) fn decode(bytes: &[u8], more: u64) -> Result<Pixels, FileError> {
     pixels(header.size, channels, Samples::Byte(signals))
 }
 
-/// The memory that pixels take, by the header alone.
-pub(super) fn size(bytes: &[u8]) -> Result<u64, FileError> {
-    let [width, height] = open(bytes, 0)?.size;
-    check_size(width.into(), height.into(), 4)
+/// The memory that pixels take, by the header alone, and so many bytes more for each.
+pub(super) fn size(bytes: &[u8], more: u64) -> Result<u64, FileError> {
+    let [width, height] = open(bytes, more)?.size;
+    check_size(width.into(), height.into(), 4 + more)
 }
 
 fn open(bytes: &[u8], more: u64) -> Result<Header, FileError> {
@@ -60,6 +62,7 @@ fn open(bytes: &[u8], more: u64) -> Result<Header, FileError> {
         return Err(FileError::new("the KTX2 is no flat picture"));
     }
     check_size(width.into(), height.into(), BYTES_PER_PIXEL + more)?;
+    check_length(bytes, width.into(), height.into(), PIXELS_IN_BYTE)?;
     let [compression, descriptor, length] = file.words(44)?;
     file.within(descriptor.into(), length.into())?;
     // What the decoder reads of a description of one or two kinds of samples.
@@ -152,7 +155,7 @@ mod tests {
         let expected: Vec<u8> = row.cycle().take(15).flatten().collect();
         let pixels = decode(&uastc(COLORS, 0), 0).unwrap();
         assert!(pixels.channels() == 3 && *pixels.samples() == Samples::Byte(expected));
-        assert_eq!(size(&uastc(COLORS, 0)), Ok(60));
+        assert_eq!(size(&uastc(COLORS, 0), 0), Ok(60));
         let alpha = decode(&uastc([[200, 100, 50, 9], [10, 20, 30, 255]], 3), 0).unwrap();
         assert_eq!(alpha.channels(), 4);
         let two = decode(&uastc([[200, 200, 200, 9], [10, 10, 10, 90]], 5), 0).unwrap();

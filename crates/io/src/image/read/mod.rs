@@ -10,7 +10,7 @@ mod pixels;
 mod repair;
 mod signals;
 
-pub use pixels::{pixels_size, read_pixels, read_pixels_bytes};
+pub use pixels::{image_size, pixels_size, read_pixels, read_pixels_bytes};
 
 use std::path::Path;
 
@@ -144,6 +144,21 @@ fn canvas(width: u64, height: u64) -> Result<Image, FileError> {
     check_size(width, height, LINEAR)?;
     Ok(Image::new(width as u32, height as u32))
 }
+
+/// That so many bytes can stand for a picture; a byte stands for no more than `most` pixels.
+///
+/// Headers promise anything. So what is allocated is in proportion to what is there.
+fn check_length(bytes: &[u8], width: u64, height: u64, most: u64) -> Result<(), FileError> {
+    if width.saturating_mul(height) <= (bytes.len() as u64).saturating_mul(most) {
+        return Ok(());
+    }
+    let length = bytes.len();
+    Err(FileError::new(format!("{length} bytes are too few for a picture of {width} x {height} pixels"))
+        .hint("it is cut off, or its header is wrong"))
+}
+
+/// What zlib makes of a byte at most: a run of 258 bytes in two bits.
+const DEFLATE: u64 = 1032;
 
 /// That a picture is within the limits that needs so much memory for each pixel; returns how much it needs.
 fn check_size(width: u64, height: u64, bytes_per_pixel: u64) -> Result<u64, FileError> {

@@ -6,7 +6,7 @@ use eyebeam_core::texture::{Pixels, Samples};
 
 use crate::error::{Error, FileError};
 use crate::file;
-use crate::image::read::{Format, exr, hdr, ktx2, repair_image, signals};
+use crate::image::read::{Format, LINEAR, exr, hdr, ktx2, repair_image, signals};
 use crate::warning::Warning;
 
 /// Reads a picture as it is in the file, but for alpha that is 1 everywhere and colours that are all grey, and says what could
@@ -31,16 +31,27 @@ pub fn read_pixels_bytes(name: &str, bytes: &[u8]) -> Result<(Pixels, Vec<Warnin
 /// # Errors
 /// If the header is damaged, or the picture is too large.
 pub fn pixels_size(name: &str, bytes: &[u8]) -> Result<u64, Error> {
-    let size = match Format::of(bytes) {
-        Ok(Format::Exr) => exr::size(bytes),
-        Ok(Format::Hdr) => hdr::size(bytes),
-        Ok(Format::Png) => signals::png_size(bytes),
-        Ok(Format::Jpeg) => signals::jpeg_size(bytes),
-        Ok(Format::WebP) => signals::webp_size(bytes),
-        Ok(Format::Ktx2) => ktx2::size(bytes),
-        Err(error) => Err(error),
-    };
-    size.map_err(|e| e.of(name))
+    size(bytes, 0).map_err(|e| e.of(name))
+}
+
+/// As [`pixels_size`], for [`read_image_bytes`](super::read_image_bytes).
+///
+/// # Errors
+/// If the header is damaged, or the picture is too large.
+pub fn image_size(name: &str, bytes: &[u8]) -> Result<u64, Error> {
+    size(bytes, LINEAR).map_err(|e| e.of(name))
+}
+
+/// With so many bytes more for each pixel that is a signal.
+fn size(bytes: &[u8], more: u64) -> Result<u64, FileError> {
+    match Format::of(bytes)? {
+        Format::Exr => exr::size(bytes),
+        Format::Hdr => hdr::size(bytes),
+        Format::Png => signals::png_size(bytes, more),
+        Format::Jpeg => signals::jpeg_size(bytes, more),
+        Format::WebP => signals::webp_size(bytes, more),
+        Format::Ktx2 => ktx2::size(bytes, more),
+    }
 }
 
 fn decode(bytes: &[u8]) -> Result<(Pixels, Vec<Warning>), FileError> {

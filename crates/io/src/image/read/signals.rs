@@ -9,8 +9,8 @@ use image::{DynamicImage, ImageDecoder};
 use png::{BitDepth, Decoder, DecodingError, Limits, Reader, Transformations};
 
 use crate::error::FileError;
-use crate::image::read::check_size;
 use crate::image::read::pixels::{compact, pixels};
+use crate::image::read::{DEFLATE, check_length, check_size};
 
 type Png<'b> = Reader<Cursor<&'b [u8]>>;
 type Jpeg<'b> = JpegDecoder<Cursor<&'b [u8]>>;
@@ -38,9 +38,9 @@ pub(super) fn decode_png(bytes: &[u8], more: u64) -> Result<Pixels, FileError> {
     pixels([width, height], channels, samples)
 }
 
-/// The memory that pixels take, by the header alone.
-pub(super) fn png_size(bytes: &[u8]) -> Result<u64, FileError> {
-    open_png(bytes, 0).map(|(_, memory)| memory)
+/// The memory that pixels take, by the header alone, and so many bytes more for each.
+pub(super) fn png_size(bytes: &[u8], more: u64) -> Result<u64, FileError> {
+    open_png(bytes, more).map(|(_, memory)| memory)
 }
 
 fn open_png(bytes: &[u8], more: u64) -> Result<(Png<'_>, u64), FileError> {
@@ -54,6 +54,8 @@ fn open_png(bytes: &[u8], more: u64) -> Result<(Png<'_>, u64), FileError> {
     // Words are put in order in another place.
     let copies = if reader.output_color_type().1 == BitDepth::Sixteen { 2 } else { 1 };
     let memory = check_size(width.into(), height.into(), copies * stride(&reader) as u64 + more)?;
+    let in_byte = 8 / reader.info().bits_per_pixel().clamp(1, 8) as u64;
+    check_length(bytes, width.into(), height.into(), DEFLATE * in_byte)?;
     Ok((reader, memory))
 }
 
@@ -69,6 +71,8 @@ fn wrong_png(e: DecodingError) -> FileError {
 
 /// Of a progressive JPEG: three coefficients, their samples, and the decoded bytes.
 const JPEG_BYTES_PER_PIXEL: u64 = 20;
+/// A block of 64 pixels takes a bit at least.
+const JPEG_PIXELS_IN_BYTE: u64 = 8 * 64;
 
 /// Refused if the picture, and so many bytes more for each pixel, are more than is allowed.
 pub(super) fn decode_jpeg(bytes: &[u8], more: u64) -> Result<Pixels, FileError> {
@@ -82,16 +86,17 @@ pub(super) fn decode_jpeg(bytes: &[u8], more: u64) -> Result<Pixels, FileError> 
     pixels([width, height], channels, Samples::Byte(signals))
 }
 
-/// The memory that pixels take, by the header alone.
-pub(super) fn jpeg_size(bytes: &[u8]) -> Result<u64, FileError> {
-    open_jpeg(bytes, 0).map(|(_, memory)| memory)
+/// The memory that pixels take, by the header alone, and so many bytes more for each.
+pub(super) fn jpeg_size(bytes: &[u8], more: u64) -> Result<u64, FileError> {
+    open_jpeg(bytes, more).map(|(_, memory)| memory)
 }
 
 fn open_jpeg(bytes: &[u8], more: u64) -> Result<(Jpeg<'_>, u64), FileError> {
     let decoder = JpegDecoder::new(Cursor::new(bytes)).map_err(wrong_jpeg)?;
     let (width, height) = decoder.dimensions();
     check_size(width.into(), height.into(), JPEG_BYTES_PER_PIXEL + more)?;
-    let memory = u64::from(width) * u64::from(height) * u64::from(decoder.color_type().bytes_per_pixel());
+    check_length(bytes, width.into(), height.into(), JPEG_PIXELS_IN_BYTE)?;
+    let memory = u64::from(width) * u64::from(height) * (u64::from(decoder.color_type().bytes_per_pixel()) + more);
     Ok((decoder, memory))
 }
 
@@ -101,6 +106,8 @@ fn wrong_jpeg(e: image::ImageError) -> FileError {
 
 /// Of a WebP: the decoded bytes, twice, and what they are predicted from.
 const WEBP_BYTES_PER_PIXEL: u64 = 12;
+/// Pixels of one colour would take nothing; this is enough for a large picture of one.
+const WEBP_PIXELS_IN_BYTE: u64 = 1 << 16;
 
 /// Refused if the picture, and so many bytes more for each pixel, are more than is allowed.
 pub(super) fn decode_webp(bytes: &[u8], more: u64) -> Result<Pixels, FileError> {
@@ -114,16 +121,17 @@ pub(super) fn decode_webp(bytes: &[u8], more: u64) -> Result<Pixels, FileError> 
     pixels([width, height], channels, Samples::Byte(signals))
 }
 
-/// The memory that pixels take, by the header alone.
-pub(super) fn webp_size(bytes: &[u8]) -> Result<u64, FileError> {
-    open_webp(bytes, 0).map(|(_, memory)| memory)
+/// The memory that pixels take, by the header alone, and so many bytes more for each.
+pub(super) fn webp_size(bytes: &[u8], more: u64) -> Result<u64, FileError> {
+    open_webp(bytes, more).map(|(_, memory)| memory)
 }
 
 fn open_webp(bytes: &[u8], more: u64) -> Result<(WebP<'_>, u64), FileError> {
     let decoder = WebPDecoder::new(Cursor::new(bytes)).map_err(wrong_webp)?;
     let (width, height) = decoder.dimensions();
     check_size(width.into(), height.into(), WEBP_BYTES_PER_PIXEL + more)?;
-    let memory = u64::from(width) * u64::from(height) * u64::from(decoder.color_type().bytes_per_pixel());
+    check_length(bytes, width.into(), height.into(), WEBP_PIXELS_IN_BYTE)?;
+    let memory = u64::from(width) * u64::from(height) * (u64::from(decoder.color_type().bytes_per_pixel()) + more);
     Ok((decoder, memory))
 }
 
@@ -207,7 +215,7 @@ mod tests {
             WebPEncoder::new_lossless(&mut webp).encode(signals, 2, 1, kind).unwrap();
             let expected = decode_png(&png(color, BitDepth::Eight, 2, &[], signals), 0).unwrap();
             assert!(decode_webp(&webp, 0).unwrap() == expected);
-            assert!(webp_size(&webp).unwrap() >= expected.bytes() as u64);
+            assert!(webp_size(&webp, 0).unwrap() >= expected.bytes() as u64);
             for end in 0..webp.len() {
                 let _ = decode_webp(&webp[..end], 0).is_ok();
             }

@@ -1,33 +1,36 @@
-//! The files that a model names lie in its folder or below.
+//! The files that a model names lie in its folder or below, unless someone allows more.
 
 use std::path::{Component, Path, PathBuf};
 
 use crate::error::FileError;
 
-/// The folder of a model.
+/// That of a model.
 pub(super) fn of(model: &Path) -> &Path {
     model.parent().filter(|folder| !folder.as_os_str().is_empty()).unwrap_or(Path::new("."))
 }
 
-/// Where a file is that a model names.
+/// Where a file is that a model of the folder names, also outside of it if `is_open`.
 ///
 /// # Errors
-/// If there is none, or its name or a link leads out of the folder.
-pub(super) fn below(folder: &Path, name: &Path) -> Result<PathBuf, FileError> {
-    let hint = "put it beside the model or below";
+/// If there is none, or its name or a link leads out of the folder and must not.
+pub(super) fn find(folder: &Path, name: &Path, is_open: bool) -> Result<PathBuf, FileError> {
+    let hint = "put it beside the model or below, or let it be read where it is with `--allow-outside`";
     let text = name.to_string_lossy().replace('\\', "/");
     let name = Path::new(&text);
     let leads_out = |c: Component<'_>| !matches!(c, Component::Normal(_) | Component::CurDir);
-    let is_elsewhere = text.contains("://") || text.get(1..2) == Some(":");
+    let has_drive = text.get(1..2) == Some(":");
     if text.is_empty() {
         return Err(FileError::new("it has no name"));
     }
-    if is_elsewhere || name.components().any(leads_out) {
+    if text.contains("://") {
+        return Err(FileError::new("it is not a file").hint("download it, and put it beside the model"));
+    }
+    if !is_open && (has_drive || name.components().any(leads_out)) {
         return Err(FileError::new("its name leads out of the folder of the model").hint(hint));
     }
     let path = folder.join(name);
     let real = |path: &Path| path.canonicalize().map_err(|e| FileError::new(e.to_string()));
-    if real(&path)?.starts_with(real(folder)?) {
+    if real(&path)?.starts_with(real(folder)?) || is_open {
         Ok(path)
     } else {
         Err(FileError::new("it is a link that leads out of the folder of the model").hint(hint))
@@ -40,11 +43,27 @@ mod tests {
 
     #[test]
     fn names_do_not_lead_out() {
-        for bad in ["../a.bin", "/etc/passwd", "a/../../b", "https://a.b/c.bin", "..\\a.bin", "C:\\a.bin"] {
-            let error = below(Path::new("."), Path::new(bad)).unwrap_err();
+        let find = |name: &str| find(of(Path::new("a.glb")), Path::new(name), false);
+        for bad in ["../a.bin", "/etc/passwd", "a/../../b", "..\\a.bin", "C:\\a.bin"] {
+            let error = find(bad).unwrap_err();
             assert_eq!(error.message, "its name leads out of the folder of the model", "{bad}");
+            assert!(error.hint.unwrap().contains("--allow-outside"));
         }
-        assert!(below(Path::new("."), Path::new("nowhere.bin")).unwrap_err().hint.is_none());
-        assert_eq!((of(Path::new("a.glb")), of(Path::new("b/a.glb"))), (Path::new("."), Path::new("b")));
+        assert_eq!(find("https://a.b/c.bin").unwrap_err().message, "it is not a file");
+        assert!(find("nowhere.bin").unwrap_err().hint.is_none());
+        assert_eq!([of(Path::new("a.glb")), of(Path::new("b/a.glb"))], [Path::new("."), Path::new("b")]);
+    }
+
+    #[test]
+    fn they_do_if_allowed() {
+        let root = tempfile::tempdir().unwrap();
+        std::fs::create_dir(root.path().join("in")).unwrap();
+        std::fs::write(root.path().join("a.bin"), "").unwrap();
+        let inside = root.path().join("in");
+        let find = |name: &Path, is_open| find(&inside, name, is_open);
+        assert!(find(Path::new("../a.bin"), false).is_err());
+        assert!(find(Path::new("../a.bin"), true).is_ok());
+        assert!(find(&root.path().join("a.bin"), true).is_ok());
+        assert!(find(Path::new("https://a.b/c.bin"), true).is_err());
     }
 }

@@ -7,15 +7,14 @@ use std::io::{self, BufRead, BufReader, Read};
 use std::path::Path;
 
 use crate::error::{At, Error, FileError};
-use crate::file;
 
 /// Longer lines are refused, bytes; those that go on in the next count as one.
 const LONGEST: usize = 1 << 20;
 
 /// Reads line by line.
-pub(super) struct Lines<'p> {
-    path: &'p Path,
-    source: Box<dyn BufRead>,
+pub(super) struct Lines<'a> {
+    name: &'a str,
+    source: Box<dyn BufRead + 'a>,
     bytes: Vec<u8>,
     text: String,
     /// Of lines that were read.
@@ -24,14 +23,13 @@ pub(super) struct Lines<'p> {
     joins: bool,
 }
 
-impl<'p> Lines<'p> {
-    /// From the beginning of a file.
+impl<'a> Lines<'a> {
+    /// From the beginning of a file, whose name stands in errors.
     ///
     /// # Errors
-    /// If it cannot be opened.
-    pub(super) fn open(path: &'p Path, joins: bool) -> Result<Self, Error> {
-        let mut file = BufReader::new(file::open(path)?);
-        let start = file.fill_buf().map_err(|e| Error::read(path, e))?;
+    /// If it cannot be read.
+    pub(super) fn new(mut file: Box<dyn BufRead + 'a>, name: &'a str, joins: bool) -> Result<Self, Error> {
+        let start = file.fill_buf().map_err(|e| Error::read(Path::new(name), e))?;
         let is_big = start.starts_with(&[0xfe, 0xff]);
         let mark = if is_big || start.starts_with(&[0xff, 0xfe]) {
             2
@@ -41,9 +39,9 @@ impl<'p> Lines<'p> {
             0
         };
         file.consume(mark);
-        let source: Box<dyn BufRead> =
-            if mark == 2 { Box::new(BufReader::new(Utf16 { source: file, is_big })) } else { Box::new(file) };
-        Ok(Self { path, source, bytes: Vec::new(), text: String::new(), count: 0, joins })
+        let source: Box<dyn BufRead + 'a> =
+            if mark == 2 { Box::new(BufReader::new(Utf16 { source: file, is_big })) } else { file };
+        Ok(Self { name, source, bytes: Vec::new(), text: String::new(), count: 0, joins })
     }
 
     /// The next line without its end, and its number, from 1.
@@ -58,9 +56,9 @@ impl<'p> Lines<'p> {
             let read = self.source.by_ref().take(left).read_until(b'\n', &mut self.bytes);
             if self.bytes.len() > LONGEST {
                 let error = FileError::new(format!("the line is longer than {LONGEST} bytes")).at(At::Line(number));
-                return Err(error.of(&self.path.display().to_string()));
+                return Err(error.of(self.name));
             }
-            if read.map_err(|e| Error::read(self.path, e))? == 0 {
+            if read.map_err(|e| Error::read(Path::new(self.name), e))? == 0 {
                 if self.count < number {
                     return Ok(None);
                 }

@@ -3,6 +3,8 @@
 //! A model becomes a [`SceneDesc`] whose meshes and pictures are loaded. It seldom has a camera or light;
 //! [`Given`] tells what it has, and [`setup`](eyebeam_core::setup) makes the rest.
 
+mod choose;
+mod files;
 mod folder;
 mod gltf;
 mod lines;
@@ -21,11 +23,15 @@ use eyebeam_core::names::Name;
 use eyebeam_core::setup::Given;
 use eyebeam_core::texture::{Color, TextureDesc, VertexColor};
 
-use crate::error::{Diagnostic, Error};
+use crate::error::{Diagnostic, Error, FileError};
+use crate::memory::Memory;
 use crate::scene::source::Sources;
-use crate::scene::{Override, ReadOptions, SceneFile, toml};
+use crate::scene::{Contents, NamedCamera, Override, ReadOptions, SceneFile, toml};
 use crate::warning::Warning;
+use choose::choose;
 
+pub use files::Files;
+pub(super) use files::Input;
 pub use up::Up;
 
 /// A kind of file that models are in.
@@ -36,7 +42,7 @@ pub struct ModelFormat {
     pub endings: &'static [&'static str],
     /// What is up in files that do not say; none if the format tells.
     pub up: Option<Up>,
-    read: fn(&Path, &ReadOptions<'_>) -> Result<Model, Error>,
+    read: fn(&Input<'_>, &ReadOptions<'_>, &Memory) -> Result<Model, Error>,
 }
 
 /// Every kind.
@@ -55,6 +61,8 @@ struct Model {
     given: Given,
     /// What could not be kept.
     warnings: Vec<Warning>,
+    /// What else there is.
+    contents: Contents,
 }
 
 impl Model {
@@ -62,6 +70,32 @@ impl Model {
     fn new() -> Self {
         let desc = SceneDesc { environment: EnvironmentDesc::None(NoLight::default()), ..SceneDesc::default() };
         Self { desc, ..Self::default() }
+    }
+
+    /// Takes the camera that is wanted, or the first. What a format knows nothing of cannot be wanted.
+    fn choose(&mut self, options: &ReadOptions<'_>) -> Result<(), FileError> {
+        let Contents { scenes, cameras, animations, .. } = &self.contents;
+        if let Some(wanted) = options.scene {
+            choose("scene", wanted, scenes.iter().map(String::as_str))?;
+        }
+        if let Some(wanted) = options.animation {
+            choose("animation", wanted, animations.iter().map(|animation| animation.name.as_str()))?;
+        }
+        let index = match options.camera {
+            None => 0,
+            Some(wanted) => {
+                let by = |name: fn(&NamedCamera) -> &str| cameras.iter().position(|camera| name(camera) == wanted);
+                match by(|camera| &camera.name).or_else(|| by(|camera| &camera.lens)) {
+                    Some(index) => index,
+                    None => choose("camera", wanted, cameras.iter().map(|camera| camera.name.as_str()))?,
+                }
+            }
+        };
+        if let Some(camera) = cameras.get(index) {
+            self.desc.camera = camera.desc.clone();
+            self.given.camera = true;
+        }
+        Ok(())
     }
 
     /// The material that has the colours of vertices, of which it is made unless the file has one of this name.
@@ -84,9 +118,13 @@ pub(super) fn format_of(path: &Path) -> Option<&'static ModelFormat> {
 ///
 /// # Errors
 /// If it cannot be read, or a setting is not of `render`.
-pub(super) fn read(format: &ModelFormat, path: &Path, options: &ReadOptions<'_>) -> Result<SceneFile, Error> {
+pub(super) fn read(format: &ModelFormat, input: &Input<'_>, options: &ReadOptions<'_>) -> Result<SceneFile, Error> {
     let render = render_settings(options.overrides)?;
-    let Model { mut desc, given, mut warnings } = (format.read)(path, options)?;
+    let memory = Memory::new(options.memory);
+    let mut model = (format.read)(input, options, &memory)?;
+    model.contents.format = format.name;
+    model.choose(options).map_err(|e| e.of(&input.name))?;
+    let Model { mut desc, given, mut warnings, contents } = model;
     desc.render = render;
     match (options.up, format.up) {
         (given, Some(default)) => given.unwrap_or(default).turn(&mut desc),
@@ -102,10 +140,10 @@ pub(super) fn read(format: &ModelFormat, path: &Path, options: &ReadOptions<'_>)
     }
     let problems = desc.check();
     if problems.is_empty() {
-        return Ok(SceneFile { desc, warnings, given });
+        return Ok(SceneFile { desc, warnings, given, contents, memory: memory.taken() });
     }
     let diagnostic = |message, hint| Diagnostic {
-        message: format!("in `{}`: {message}", path.display()),
+        message: format!("in `{}`: {message}", input.name),
         place: None,
         hint,
         unreadable: false,
@@ -123,5 +161,6 @@ fn render_settings(overrides: &[Override]) -> Result<RenderDesc, Error> {
             unreadable: false,
         }]));
     }
-    Ok(toml::read(Sources::from_text("settings", "")?, overrides)?.desc.render)
+    let options = ReadOptions { overrides, ..ReadOptions::default() };
+    Ok(toml::read(Sources::from_text("settings", "")?, &options)?.desc.render)
 }

@@ -4,16 +4,16 @@
 //! said; printers build along +Z. StereoLithography Interface Specification, 3D Systems, 1988.
 
 use std::collections::HashMap;
-use std::io::{BufReader, Read};
-use std::path::Path;
+use std::io::Read;
 use std::sync::Arc;
 
 use eyebeam_core::shape::{MeshData, MeshDesc};
 
 use crate::error::{At, Error, FileError};
-use crate::file;
+use crate::memory::Memory;
 use crate::scene::ReadOptions;
 use crate::scene::model::Model;
+use crate::scene::model::files::Input;
 use crate::scene::model::lines::Lines;
 use crate::scene::model::skipped::Skipped;
 use crate::warning::Warning;
@@ -23,21 +23,19 @@ const HEADER: usize = 84;
 /// Bytes of a triangle: a normal, three vertices, and two of colour.
 const FACET: usize = 50;
 
-pub(super) fn read(path: &Path, _: &ReadOptions<'_>) -> Result<Model, Error> {
-    let name = path.display().to_string();
+pub(super) fn read(input: &Input<'_>, _: &ReadOptions<'_>, memory: &Memory) -> Result<Model, Error> {
+    let name = input.name.clone();
     let mut model = Model::new();
-    let mut mesh = Builder::default();
-    let file = file::open(path)?;
-    let length = file.metadata().map_err(|e| Error::read(path, e))?.len();
-    let mut source = BufReader::new(file);
+    let mut mesh = Builder::new(memory);
+    let (mut source, length) = input.open()?;
     let mut header = Vec::new();
-    source.by_ref().take(HEADER as u64).read_to_end(&mut header).map_err(|e| Error::read(path, e))?;
+    source.by_ref().take(HEADER as u64).read_to_end(&mut header).map_err(|e| input.unreadable(e))?;
     let count = header.last_chunk::<4>().filter(|_| header.len() == HEADER).map(|n| u32::from_le_bytes(*n));
     let expected = count.map(|count| HEADER as u64 + u64::from(count) * FACET as u64);
     let says_solid = header.trim_ascii_start().get(..5).is_some_and(|word| word.eq_ignore_ascii_case(b"solid"));
     match (count, expected) {
         (Some(count), Some(expected)) if expected == length || (!says_solid && expected <= length) => {
-            let colored = binary(&mut source, count, &mut mesh).map_err(|e| e.or_read(path))?;
+            let colored = binary(&mut source, count, &mut mesh).map_err(|e| e.or_read(input))?;
             if colored > 0 {
                 model.warnings.push(Warning::new(format!("`{name}`: the colours of {colored} triangles are not read")));
             }
@@ -46,7 +44,7 @@ pub(super) fn read(path: &Path, _: &ReadOptions<'_>) -> Result<Model, Error> {
                 model.warnings.push(Warning::new(format!("`{name}`: {rest} bytes after the triangles are not read")));
             }
         }
-        _ if says_solid => text(path, &name, &mut mesh, &mut model.warnings)?,
+        _ if says_solid => text(input, &mut mesh, &mut model.warnings)?,
         (Some(count), _) => {
             let error = FileError::new(format!("the file is too short for {count} triangles"));
             return Err(error.at(At::Byte(HEADER - 4)).hint("it is cut off, or no STL").of(&name));
@@ -55,21 +53,36 @@ pub(super) fn read(path: &Path, _: &ReadOptions<'_>) -> Result<Model, Error> {
             return Err(FileError::new("the file is no STL").hint("it is cut off, or of another kind").of(&name));
         }
     }
+    memory.take(mesh.bytes()).map_err(|e| e.of(&name))?;
     let data = Some(Arc::new(mesh.data));
     model.desc.shape.mesh.push(MeshDesc { file: Some(name), data, ..MeshDesc::default() });
     Ok(model)
 }
 
 /// A mesh in the making.
-#[derive(Default)]
-struct Builder {
+struct Builder<'a> {
     data: MeshData,
     /// Vertices by their bits.
     vertices: HashMap<[u32; 3], u32>,
+    memory: &'a Memory,
 }
 
-impl Builder {
+impl<'a> Builder<'a> {
+    fn new(memory: &'a Memory) -> Self {
+        Self { data: MeshData::default(), vertices: HashMap::new(), memory }
+    }
+
+    /// That it takes until now, about.
+    fn bytes(&self) -> u64 {
+        // A vertex is in a list and in a table that may be half empty.
+        (12 * self.data.triangles.len() + 48 * self.data.vertices.len()) as u64
+    }
+
     fn push(&mut self, corners: [[f32; 3]; 3]) -> Result<(), FileError> {
+        const BETWEEN_CHECKS: usize = 1 << 16;
+        if self.data.triangles.len().is_multiple_of(BETWEEN_CHECKS) {
+            self.memory.check(self.bytes())?;
+        }
         let mut triangle = [0; 3];
         for (index, corner) in triangle.iter_mut().zip(corners) {
             if corner.iter().any(|c| !c.is_finite()) {
@@ -93,16 +106,16 @@ enum Failure {
 }
 
 impl Failure {
-    fn or_read(self, path: &Path) -> Error {
+    fn or_read(self, input: &Input<'_>) -> Error {
         match self {
-            Self::Io(e) => Error::read(path, e),
-            Self::File(e) => e.of(&path.display().to_string()),
+            Self::Io(e) => input.unreadable(e),
+            Self::File(e) => e.of(&input.name),
         }
     }
 }
 
 /// Reads triangles; how many have colours.
-fn binary(source: &mut impl Read, count: u32, mesh: &mut Builder) -> Result<usize, Failure> {
+fn binary(source: &mut impl Read, count: u32, mesh: &mut Builder<'_>) -> Result<usize, Failure> {
     let mut colored = 0;
     let mut facet = [0; FACET];
     for i in 0..count as usize {
@@ -118,8 +131,9 @@ fn binary(source: &mut impl Read, count: u32, mesh: &mut Builder) -> Result<usiz
 }
 
 /// Reads a text: the vertices between `outer loop` and `endloop`.
-fn text(path: &Path, name: &str, mesh: &mut Builder, warnings: &mut Vec<Warning>) -> Result<(), Error> {
-    let mut lines = Lines::open(path, false)?;
+fn text(input: &Input<'_>, mesh: &mut Builder<'_>, warnings: &mut Vec<Warning>) -> Result<(), Error> {
+    let name = &input.name;
+    let mut lines = Lines::new(input.open()?.0, name, false)?;
     let mut skipped = Skipped::default();
     let mut corners: Vec<[f32; 3]> = Vec::new();
     let mut last = 0;

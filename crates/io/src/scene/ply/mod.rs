@@ -1,37 +1,26 @@
 //! PLY: polygons as text or binary, with whatever else their maker wrote.
 //!
-//! Read are the element `vertex` with `x y z`, `nx ny nz` and `u v` (also `s t`, `texture_u texture_v`,
-//! `texture_s texture_t`) and `red green blue` (also `diffuse_red` and so on, `r g b`), of `face` the list `vertex_indices` or `vertex_index`, of `tristrips` the same list, where -1
-//! ends a strip. Polygons become fans of triangles; faces of fewer than three corners are dropped. Everything else is
-//! skipped. Turk, "The PLY Polygon File Format", 1994.
+//! Read are the element `vertex` with `x y z`, `nx ny nz`, `u v` (also `s t`, `texture_u texture_v`, `texture_s texture_t`),
+//! `red green blue` (also `diffuse_red` and so on, `r g b`) and `alpha`, of `face` the list `vertex_indices` or `vertex_index`, of
+//! `tristrips` the same list, where -1 ends a strip. Polygons become fans of triangles; faces of fewer than three corners are dropped.
+//! Colours of whole numbers are sRGB signals from 0 to their type's largest, others linear light. Second coordinates `u1 v1` and tangents
+//! `tx ty tz tw` are ours. Everything else is skipped. Turk, "The PLY Polygon File Format", 1994.
 
 mod header;
 mod values;
+mod write;
 
 use std::path::Path;
 
 use eyebeam_core::color::srgb_decode;
+use eyebeam_core::shape::MeshData;
 
 use crate::error::{At, Error, FileError};
 use crate::file;
 use header::{Element, Format, Header, Kind, Scalar};
 use values::{Binary, Text, Values};
 
-/// Triangles and what their corners have.
-#[derive(Clone, Debug, Default, PartialEq)]
-pub struct MeshData {
-    /// Positions, finite.
-    pub vertices: Vec<[f32; 3]>,
-    /// One per vertex, of any length; [0, 0, 0] where the file has none that is finite. Empty if it has none at all.
-    pub normals: Vec<[f32; 3]>,
-    /// Texture coordinates, one per vertex; [0, 0] where they are not finite. Empty if the file has none.
-    pub uvs: Vec<[f32; 2]>,
-    /// A linear colour at each vertex: whole numbers are sRGB signals from 0 to their type's largest, others linear already. 0
-    /// where it is negative or not finite. Empty if the file has none.
-    pub colors: Vec<[f32; 3]>,
-    /// Indices of vertices, three for each triangle.
-    pub triangles: Vec<[u32; 3]>,
-}
+pub use write::encode_ply;
 
 /// Reads a mesh.
 ///
@@ -48,6 +37,28 @@ pub fn read_ply(path: &Path) -> Result<MeshData, Error> {
 pub fn read_ply_bytes(name: &str, bytes: &[u8]) -> Result<MeshData, Error> {
     read(bytes).map_err(|e| e.of(name))
 }
+
+/// About the memory that the mesh takes, by the header alone.
+///
+/// # Errors
+/// If that is damaged.
+pub fn mesh_size(name: &str, bytes: &[u8]) -> Result<u64, Error> {
+    let header = Header::parse(bytes).map_err(|e| e.of(name))?;
+    let size = |element: &Element| {
+        let each = match element.name.as_str() {
+            "vertex" => VERTEX.min(element.properties.len() as u64 * 4),
+            // Two triangles.
+            "face" => 24,
+            _ => 0,
+        };
+        // An element takes a byte at least.
+        element.count.min(bytes.len()) as u64 * each
+    };
+    Ok(header.elements.iter().map(size).sum())
+}
+
+/// The bytes of a position, a normal, two coordinates, a tangent, a colour and an alpha.
+const VERTEX: u64 = 72;
 
 fn read(bytes: &[u8]) -> Result<MeshData, FileError> {
     let header = Header::parse(bytes)?;
@@ -97,15 +108,28 @@ const UV: [[&str; 2]; 4] = [["u", "v"], ["s", "t"], ["texture_u", "texture_v"], 
 const COLOR: [[&str; 3]; 3] =
     [["red", "green", "blue"], ["diffuse_red", "diffuse_green", "diffuse_blue"], ["r", "g", "b"]];
 
+/// What a whole number counts up to where it stands for a share.
+fn largest(kind: Kind) -> Option<f32> {
+    match kind {
+        Kind::Scalar(Scalar::U8) => Some(255.0),
+        Kind::Scalar(Scalar::U16) => Some(65535.0),
+        _ => None,
+    }
+}
+
 /// The linear light that a number stands for.
 fn light(value: f32, kind: Kind) -> f32 {
-    let largest = match kind {
-        Kind::Scalar(Scalar::U8) => 255.0,
-        Kind::Scalar(Scalar::U16) => 65535.0,
-        _ if value.is_finite() => return value.max(0.0),
-        _ => return 0.0,
-    };
-    srgb_decode(value / largest)
+    match largest(kind) {
+        Some(largest) => srgb_decode(value / largest),
+        None if value.is_finite() => value.max(0.0),
+        None => 0.0,
+    }
+}
+
+/// The share that a number stands for.
+fn share(value: f32, kind: Kind) -> f32 {
+    let share = value / largest(kind).unwrap_or(1.0);
+    if share.is_nan() { 1.0 } else { share.clamp(0.0, 1.0) }
 }
 
 fn read_vertices(element: &Element, values: &mut impl Values, mesh: &mut MeshData) -> Result<(), FileError> {
@@ -114,11 +138,18 @@ fn read_vertices(element: &Element, values: &mut impl Values, mesh: &mut MeshDat
         .ok_or_else(|| FileError::new("vertices have no numbers `x`, `y` and `z`").at(At::Line(element.line)))?;
     let normal = element.scalars(["nx", "ny", "nz"]);
     let uv = UV.iter().find_map(|names| element.scalars(*names));
+    let uv_1 = element.scalars(["u1", "v1"]);
+    let tangent = element.scalars(["tx", "ty", "tz", "tw"]).filter(|_| normal.is_some());
     let color = COLOR.iter().find_map(|names| element.scalars(*names));
+    let alpha = element.scalars(["alpha"]);
     mesh.vertices.reserve_exact(element.count);
-    mesh.normals.reserve_exact(if normal.is_some() { element.count } else { 0 });
-    mesh.uvs.reserve_exact(if uv.is_some() { element.count } else { 0 });
-    mesh.colors.reserve_exact(if color.is_some() { element.count } else { 0 });
+    let count = |is_there: bool| if is_there { element.count } else { 0 };
+    mesh.normals.reserve_exact(count(normal.is_some()));
+    mesh.uvs.reserve_exact(count(uv.is_some()));
+    mesh.uvs_1.reserve_exact(count(uv_1.is_some()));
+    mesh.tangents.reserve_exact(count(tangent.is_some()));
+    mesh.colors.reserve_exact(count(color.is_some()));
+    mesh.alphas.reserve_exact(count(alpha.is_some()));
     let mut row = vec![0.0; element.properties.len()];
     for i in 0..element.count {
         let at = values.at();
@@ -135,6 +166,9 @@ fn read_vertices(element: &Element, values: &mut impl Values, mesh: &mut MeshDat
         mesh.vertices.push(p);
         mesh.normals.extend(normal.map(|n| finite(n.map(|k| row[k]))));
         mesh.uvs.extend(uv.map(|uv| finite(uv.map(|k| row[k]))));
+        mesh.uvs_1.extend(uv_1.map(|uv| finite(uv.map(|k| row[k]))));
+        mesh.tangents.extend(tangent.map(|t| finite(t.map(|k| row[k]))));
+        mesh.alphas.extend(alpha.map(|[k]| share(row[k], element.properties[k].kind)));
         mesh.colors.extend(color.map(|color| color.map(|k| light(row[k], element.properties[k].kind))));
     }
     Ok(())

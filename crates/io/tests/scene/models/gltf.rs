@@ -204,17 +204,19 @@ fn instances_are_copies() {
     assert_eq!(file.desc.shape.mesh[2].data.as_ref().unwrap().vertices[0], [0.0, 2.0, 0.0]);
 }
 
-/// A hundred thousand in one place: accessors without bytes are 0.
+/// Seventy thousand in one place.
 #[test]
 fn many_instances_share_a_mesh() {
     let extension = json!({ "EXT_mesh_gpu_instancing": { "attributes": { "TRANSLATION": 5 } } });
     let file = model(&with(&[
         ("/nodes/0/extensions", extension),
         ("/nodes/0/translation", json!([1, 2, 3])),
-        ("/accessors/5", json!({ "componentType": 5126, "count": 100_000, "type": "VEC3" })),
+        ("/accessors/5", json!({ "bufferView": 5, "componentType": 5126, "count": 70_000, "type": "VEC3" })),
+        ("/bufferViews/5", json!({ "buffer": 1, "byteLength": 840_000 })),
+        ("/buffers/1", json!({ "byteLength": 840_000, "uri": format!("data:;base64,{}", "A".repeat(1_120_000)) })),
     ]));
     let [mesh] = &file.desc.shape.mesh[..] else { panic!("one mesh") };
-    assert_eq!((mesh.instances.len(), mesh.triangle_count()), (100_000, 1));
+    assert_eq!((mesh.instances.len(), mesh.triangle_count()), (70_000, 1));
     assert_eq!(mesh.instances[7], [1.0, 0.0, 0.0, 1.0, 0.0, 1.0, 0.0, 2.0, 0.0, 0.0, 1.0, 3.0]);
     assert!(file.desc.check().is_empty());
 }

@@ -44,7 +44,7 @@ fn model(name: &str, text: &str, up: Option<Up>) -> SceneFile {
 
 #[test]
 fn a_mesh_is_a_model_without_camera_and_light() {
-    let SceneFile { desc, warnings, given } = model("t.PLY", TRIANGLE, None);
+    let SceneFile { desc, warnings, given, .. } = model("t.PLY", TRIANGLE, None);
     assert_eq!((given, warnings), (Given::default(), vec![]));
     assert_eq!(desc.shape.mesh[0].data.as_ref().unwrap().vertices[2], [0.0, 0.0, 2.0]);
     let material = &desc.material[desc.shape.mesh[0].material.as_ref().unwrap()];

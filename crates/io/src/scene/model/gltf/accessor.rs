@@ -5,13 +5,14 @@
 use std::collections::BTreeMap;
 
 use crate::error::FileError;
+use crate::memory::Memory;
 use crate::scene::model::gltf::document::{Accessor, Document, SparsePart};
 use crate::scene::model::gltf::draco::{self, Stream};
 use crate::scene::model::gltf::extensions::get;
 use crate::scene::model::gltf::meshopt::Compressed;
 
-/// Without a buffer an accessor is all zeros: of no more than these.
-const MOST_ZEROS: usize = 1 << 24;
+/// Without a buffer an accessor is all zeros: of no more than these, or than the bytes of the file.
+const MOST_ZEROS: usize = 1 << 16;
 
 /// The bytes that a file's JSON speaks of.
 pub(super) struct Bytes {
@@ -25,12 +26,17 @@ pub(super) struct Bytes {
 
 impl Bytes {
     /// Decodes all buffer views that are compressed, and all meshes in them.
-    pub(super) fn new(document: &Document, buffers: Vec<Vec<u8>>) -> Result<Self, FileError> {
+    pub(super) fn new(document: &Document, buffers: Vec<Vec<u8>>, memory: &Memory) -> Result<Self, FileError> {
         let compressed =
             document.buffer_views.iter().enumerate().filter_map(|(index, view)| {
                 Some((index, get::<Compressed>(&view.extensions, "EXT_meshopt_compression")?))
             });
+        let mut left = buffers.iter().map(Vec::len).sum::<usize>();
         let decode = |(index, part): (usize, Compressed)| {
+            // What is told once is not decoded many times.
+            left =
+                left.checked_sub(part.byte_length).ok_or_else(|| FileError::new("compressed buffer views overlap"))?;
+            memory.take(part.most_bytes())?;
             let code =
                 buffers.get(part.buffer).and_then(|bytes| bytes.get(part.byte_offset..)?.get(..part.byte_length));
             let code = code.ok_or_else(|| FileError::new("it reaches beyond its buffer"));
@@ -40,8 +46,13 @@ impl Bytes {
         };
         let decoded = compressed.map(decode).collect::<Result<_, FileError>>()?;
         let bytes = Self { buffers, decoded, streams: BTreeMap::new() };
-        let streams = draco::decode(&Buffers { document, bytes: &bytes })?;
+        let streams = draco::decode(&Buffers { document, bytes: &bytes, memory })?;
         Ok(Self { streams, ..bytes })
+    }
+
+    /// Of all.
+    fn length(&self) -> usize {
+        self.buffers.iter().chain(self.decoded.values()).map(Vec::len).sum()
     }
 }
 
@@ -49,6 +60,7 @@ impl Bytes {
 pub(super) struct Buffers<'a> {
     pub(super) document: &'a Document,
     pub(super) bytes: &'a Bytes,
+    pub(super) memory: &'a Memory,
 }
 
 impl Buffers<'_> {
@@ -85,9 +97,14 @@ impl Buffers<'_> {
 
     /// All numbers, one after the other.
     pub(super) fn flat(&self, index: usize) -> Result<Vec<f32>, FileError> {
-        let size = components(&self.accessor(index)?.kind, index)?;
-        let elements = self.floats::<16>(index, 0.0)?;
-        Ok(elements.iter().flat_map(|element| element.iter().take(size)).copied().collect())
+        Ok(match components(&self.accessor(index)?.kind, index)? {
+            1 => self.floats::<1>(index, 0.0)?.into_flattened(),
+            2 => self.floats::<2>(index, 0.0)?.into_flattened(),
+            3 => self.floats::<3>(index, 0.0)?.into_flattened(),
+            4 => self.floats::<4>(index, 0.0)?.into_flattened(),
+            9 => self.floats::<9>(index, 0.0)?.into_flattened(),
+            _ => self.floats::<16>(index, 0.0)?.into_flattened(),
+        })
     }
 
     /// Elements of N whole numbers.
@@ -108,6 +125,7 @@ impl Buffers<'_> {
         let accessor = self.accessor(index)?;
         let component = Component::of(accessor.component_type, index)?.size();
         let (size, count) = (components(&accessor.kind, index)?, accessor.count);
+        let bytes_of_all = (count as u64).saturating_mul(size_of::<[T; N]>() as u64);
         let element = |bytes: &[u8]| element(bytes, component, size, rest, &number);
         let mut elements = match accessor.buffer_view {
             Some(view) => {
@@ -117,12 +135,16 @@ impl Buffers<'_> {
                 let chunks = strided(bytes, stride.unwrap_or(tight), tight, count).ok_or_else(|| {
                     FileError::new(format!("accessor {index} of {count} elements reaches beyond buffer view {view}"))
                 })?;
+                self.memory.check(bytes_of_all)?;
                 chunks.map(element).collect()
             }
-            None if count > MOST_ZEROS => {
+            None if count > MOST_ZEROS.max(self.bytes.length()) => {
                 return Err(FileError::new(format!("accessor {index} has {count} elements and no buffer")));
             }
-            None => vec![element(&vec![0; component * size]); count],
+            None => {
+                self.memory.check(bytes_of_all)?;
+                vec![element(&vec![0; component * size]); count]
+            }
         };
         if let Some(sparse) = &accessor.sparse {
             let places = self.sparse(&sparse.indices, sparse.count, None, index)?;
@@ -256,8 +278,9 @@ mod tests {
 
     fn read<const N: usize>(json: &str, bytes: &[u8]) -> Result<Vec<[f32; N]>, FileError> {
         let document: Document = serde_json::from_str(json).unwrap();
-        let bytes = Bytes::new(&document, vec![bytes.to_vec()]).unwrap();
-        Buffers { document: &document, bytes: &bytes }.floats(0, 9.0)
+        let memory = Memory::new(None);
+        let bytes = Bytes::new(&document, vec![bytes.to_vec()], &memory).unwrap();
+        Buffers { document: &document, bytes: &bytes, memory: &memory }.floats(0, 9.0)
     }
 
     #[test]

@@ -3,9 +3,14 @@
 //! Between two keys: the value of the first (STEP), an even mix, turns along the shortest arc (LINEAR, Shoemake 1985,
 //! doi:10.1145/325165.325242), or Hermite's cubic (CUBICSPLINE). Khronos, glTF 2.0 Specification, 2021, §3.11 and appendix C.
 
+use std::collections::BTreeMap;
+use std::collections::btree_map::Entry;
+
 use glam::DQuat;
 
 use crate::error::FileError;
+use crate::scene;
+use crate::scene::model::choose::choose;
 use crate::scene::model::gltf::accessor::{Buffers, missing};
 use crate::scene::model::gltf::document::{Animation, AnimationSampler, Document};
 
@@ -27,13 +32,17 @@ enum To {
 /// # Errors
 /// If there is none; they are listed.
 pub(super) fn find(document: &Document, wanted: &str) -> Result<usize, FileError> {
-    let by_name = document.animations.iter().position(|animation| animation.name == wanted);
-    let by_number = wanted.parse().ok().filter(|&i: &usize| i < document.animations.len());
-    by_name.or(by_number).ok_or_else(|| {
-        let names: Vec<_> = document.animations.iter().enumerate().map(|(i, a)| format!("{i} `{}`", a.name)).collect();
-        let hint = if names.is_empty() { "it has none".to_owned() } else { format!("it has {}", names.join(", ")) };
-        FileError::new(format!("there is no animation `{wanted}`")).hint(hint)
-    })
+    choose("animation", wanted, document.animations.iter().map(|animation| animation.name.as_str()))
+}
+
+/// All animations, with the time of their last keys.
+pub(super) fn all(buffers: &Buffers<'_>) -> Vec<scene::Animation> {
+    let end = |sampler: &AnimationSampler| buffers.floats::<1>(sampler.input, 0.0).ok()?.last().map(|[t]| *t);
+    let told = |Animation { name, samplers, .. }: &Animation| scene::Animation {
+        name: name.clone(),
+        seconds: samplers.iter().filter_map(end).filter(|t| t.is_finite()).fold(0.0, f32::max),
+    };
+    buffers.document.animations.iter().map(told).collect()
 }
 
 /// What an animation says at a time, seconds.
@@ -41,11 +50,17 @@ pub(super) fn sample(buffers: &Buffers<'_>, animation: usize, at: f32) -> Result
     let animation = buffers.document.animations.get(animation).ok_or_else(|| missing("animation", animation))?;
     let Animation { channels, samplers, .. } = animation;
     let mut changes = Vec::new();
+    let mut known = BTreeMap::new();
     for channel in channels {
         let Some(node) = channel.target.node else { continue };
         let sampler = samplers.get(channel.sampler).ok_or_else(|| missing("sampler", channel.sampler))?;
         let turns = channel.target.path == "rotation";
-        let values = value(buffers, sampler, at, turns)?;
+        for index in [sampler.input, sampler.output] {
+            if let Entry::Vacant(entry) = known.entry(index) {
+                entry.insert(buffers.flat(index)?);
+            }
+        }
+        let values = value(&known, sampler, at, turns)?;
         let vector = |values: &[f32]| -> Result<[f64; 3], FileError> {
             let vector: Option<[f32; 3]> = values.try_into().ok();
             Ok(vector.ok_or_else(|| FileError::new("an animation moves nodes by what is no vector"))?.map(f64::from))
@@ -81,9 +96,14 @@ pub(super) fn apply(document: &mut Document, changes: Vec<Change>) {
 }
 
 /// The value of a sampler at a time; before its first key and after its last one it is theirs.
-fn value(buffers: &Buffers<'_>, sampler: &AnimationSampler, at: f32, turns: bool) -> Result<Vec<f32>, FileError> {
-    let times: Vec<f32> = buffers.floats::<1>(sampler.input, 0.0)?.into_iter().map(|[t]| t).collect();
-    let numbers = buffers.flat(sampler.output)?;
+fn value(
+    known: &BTreeMap<usize, Vec<f32>>,
+    sampler: &AnimationSampler,
+    at: f32,
+    turns: bool,
+) -> Result<Vec<f32>, FileError> {
+    let numbers_of = |index| known.get(&index).ok_or_else(|| missing("accessor", index));
+    let (times, numbers) = (numbers_of(sampler.input)?, numbers_of(sampler.output)?);
     let is_cubic = sampler.interpolation.as_deref() == Some("CUBICSPLINE");
     let parts = times.len() * if is_cubic { 3 } else { 1 };
     let width = numbers.len().checked_div(parts).unwrap_or_default();

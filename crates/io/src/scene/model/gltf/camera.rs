@@ -4,13 +4,22 @@ use eyebeam_core::camera::{CameraDesc, OrthographicDesc};
 use glam::{DAffine3, DVec3};
 
 use crate::error::FileError;
+use crate::scene::NamedCamera;
 use crate::scene::model::Model;
 use crate::scene::model::gltf::accessor::missing;
 use crate::scene::model::gltf::document::{Document, Node};
+use crate::warning::Warning;
 
-/// The model's camera, if it has none yet.
-pub(super) fn read(document: &Document, node: &Node, to_world: &DAffine3, model: &mut Model) -> Result<(), FileError> {
-    let Some(index) = node.camera.filter(|_| !model.given.camera) else { return Ok(()) };
+/// Adds a node's camera to those of the model; of one that is wrong there is a warning.
+pub(super) fn read(document: &Document, node: &Node, to_world: &DAffine3, model: &mut Model) {
+    let Some(index) = node.camera else { return };
+    match find(document, index, node, to_world) {
+        Ok(camera) => model.contents.cameras.push(camera),
+        Err(e) => model.warnings.push(Warning::new(format!("a camera is left out: {}", e.message))),
+    }
+}
+
+fn find(document: &Document, index: usize, node: &Node, to_world: &DAffine3) -> Result<NamedCamera, FileError> {
     let camera = document.cameras.get(index).ok_or_else(|| missing("camera", index))?;
     let from = to_world.translation;
     let direction = |axis: DVec3| (to_world.matrix3 * axis).normalize_or_zero();
@@ -31,7 +40,7 @@ pub(super) fn read(document: &Document, node: &Node, to_world: &DAffine3, model:
         }
         (None, None) => return Err(FileError::new(format!("camera {index} is of no kind"))),
     }
-    model.desc.camera = desc;
-    model.given.camera = true;
-    Ok(())
+    let lens = camera.name.clone();
+    let name = if node.name.is_empty() { lens.clone() } else { node.name.clone() };
+    Ok(NamedCamera { name, lens, desc })
 }

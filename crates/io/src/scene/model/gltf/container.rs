@@ -9,8 +9,7 @@ use base64::Engine;
 use base64::engine::general_purpose::STANDARD;
 
 use crate::error::{At, FileError};
-use crate::file;
-use crate::scene::model::folder;
+use crate::scene::model::files::Files;
 
 /// The JSON text and the bytes behind it in a file.
 pub(super) struct Container<'a> {
@@ -51,16 +50,16 @@ impl<'a> Container<'a> {
     }
 }
 
-/// The bytes that a URI names, in a file of a folder or below.
-pub(super) fn resolve(uri: &str, folder: &Path) -> Result<Vec<u8>, FileError> {
+/// The bytes that a URI names, in it or in a file.
+pub(super) fn resolve(uri: &str, files: Files<'_>) -> Result<Vec<u8>, FileError> {
     if let Some(data) = uri.strip_prefix("data:") {
         let Some((_, data)) = data.split_once(";base64,") else {
             return Err(FileError::new("a data URI is not in base64"));
         };
         return STANDARD.decode(data.trim_end()).map_err(|e| FileError::new(format!("a data URI is damaged: {e}")));
     }
-    let path = folder::below(folder, Path::new(&*decode(uri)));
-    let bytes = path.and_then(|path| Ok(file::read(&path)?));
+    let path = files.find(Path::new(&*decode(uri)));
+    let bytes = path.and_then(|path| Ok(files.read(&path)?));
     bytes.map_err(|e| FileError { message: format!("`{uri}` is not read: {}", e.message), ..e })
 }
 
@@ -94,10 +93,10 @@ mod tests {
     #[test]
     fn uris_are_decoded() {
         assert_eq!(decode("a%20b%2Fc%zz%4"), "a b/c%zz%4");
-        assert_eq!(resolve("data:application/octet-stream;base64,AQID", Path::new("")).unwrap(), [1, 2, 3]);
-        assert!(resolve("data:text/plain,abc", Path::new("")).is_err());
+        assert_eq!(resolve("data:application/octet-stream;base64,AQID", Files::None).unwrap(), [1, 2, 3]);
+        assert!(resolve("data:text/plain,abc", Files::None).is_err());
         // The name is looked at after that.
-        let error = resolve("..%2Fa.bin", Path::new(".")).unwrap_err();
+        let error = resolve("..%2Fa.bin", Files::In(Path::new("."))).unwrap_err();
         assert_eq!(error.message, "`..%2Fa.bin` is not read: its name leads out of the folder of the model");
     }
 }

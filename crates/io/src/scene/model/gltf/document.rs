@@ -9,6 +9,17 @@ use serde_json::Value;
 /// What an object says besides what the core of glTF 2.0 knows, by the extension's name.
 pub(super) type Extensions = BTreeMap<String, Value>;
 
+/// The memory that a document takes at most, by its text: objects and lists are longest where they are empty.
+pub(super) fn size(json: &[u8]) -> u64 {
+    const OBJECT: usize = size_of::<Material>() + size_of::<Node>();
+    let sizes = json.iter().map(|byte| match byte {
+        b'{' => OBJECT,
+        b'[' | b',' => size_of::<Value>() + size_of::<String>(),
+        _ => 1,
+    });
+    sizes.map(|size| size as u64).sum()
+}
+
 #[derive(Debug, Default, Deserialize)]
 #[serde(rename_all = "camelCase", default)]
 pub(super) struct Document {
@@ -37,11 +48,13 @@ pub(super) struct Document {
 pub(super) struct Asset {
     pub(super) version: String,
     pub(super) min_version: Option<String>,
+    pub(super) generator: Option<String>,
 }
 
 #[derive(Debug, Default, Deserialize)]
 #[serde(default)]
 pub(super) struct Scene {
+    pub(super) name: String,
     pub(super) nodes: Vec<usize>,
     pub(super) extensions: Extensions,
 }
@@ -49,6 +62,7 @@ pub(super) struct Scene {
 #[derive(Debug, Default, Deserialize)]
 #[serde(default)]
 pub(super) struct Node {
+    pub(super) name: String,
     pub(super) children: Vec<usize>,
     pub(super) matrix: Option<[f64; 16]>,
     pub(super) translation: Option<[f64; 3]>,
@@ -266,6 +280,7 @@ pub(super) struct AnimationSampler {
 #[derive(Debug, Default, Deserialize)]
 #[serde(default)]
 pub(super) struct Camera {
+    pub(super) name: String,
     pub(super) perspective: Option<Perspective>,
     pub(super) orthographic: Option<Orthographic>,
 }

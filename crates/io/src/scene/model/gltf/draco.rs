@@ -18,6 +18,10 @@ use crate::scene::model::gltf::document::Primitive;
 const MOST_TRIANGLES: usize = 1 << 25;
 /// Bytes that an attribute of a vertex can have: four numbers of four.
 const MOST_BYTES: usize = 16;
+/// The most triangles that a byte can stand for.
+const MOST_IN_BYTE: usize = 1024;
+/// Bytes that decoding takes for a triangle.
+const TRIANGLE: u64 = 70;
 /// Attributes that a stream may have besides those that are named.
 const MORE_ATTRIBUTES: usize = 4;
 
@@ -69,12 +73,16 @@ impl Size {
         }
     }
 
+    /// Of vertices, at most.
+    fn bytes(self) -> u64 {
+        (self.vertices as u64).saturating_mul((MOST_BYTES * (self.attributes + MORE_ATTRIBUTES)) as u64)
+    }
+
     fn limits(self) -> DecodeLimits {
-        let bytes = self.vertices.saturating_mul(MOST_BYTES * (self.attributes + MORE_ATTRIBUTES));
         DecodeLimits::default()
             .with_max_faces(self.triangles as u64)
             .with_max_points(self.vertices as u64)
-            .with_max_decoded_bytes(bytes as u64)
+            .with_max_decoded_bytes(self.bytes())
     }
 }
 
@@ -92,6 +100,14 @@ pub(super) fn decode(buffers: &Buffers<'_>) -> Result<BTreeMap<usize, Stream>, F
     if triangles > MOST_TRIANGLES {
         let message = format!("the compressed meshes have {triangles} triangles, and {MOST_TRIANGLES} are allowed");
         return Err(FileError::new(message).hint("export the model without mesh compression"));
+    }
+    for (view, size) in &sizes {
+        let length = buffers.view(*view)?.len();
+        if size.triangles > length.saturating_mul(MOST_IN_BYTE) {
+            let message = format!("buffer view {view} is too short for a mesh of {} triangles", size.triangles);
+            return Err(FileError::new(message));
+        }
+        buffers.memory.take(size.bytes().saturating_add(TRIANGLE * size.triangles as u64))?;
     }
     let of = |view: usize| move |e: FileError| FileError { message: format!("buffer view {view}: {}", e.message), ..e };
     let stream = |(view, size): (usize, Size)| Ok((view, Stream::decode(buffers.view(view)?, size).map_err(of(view))?));

@@ -14,10 +14,20 @@ use crate::scene::model::gltf::extensions::get;
 
 const NAME: &str = "KHR_lights_punctual";
 
-pub(super) fn read(document: &Document, node: &Node, to_world: &DAffine3, model: &mut Model) -> Result<(), FileError> {
+/// Those of a file.
+pub(super) fn all(document: &Document) -> PunctualLights {
+    get(&document.extensions, NAME).unwrap_or_default()
+}
+
+/// Adds that of a node.
+pub(super) fn read(
+    lights: &PunctualLights,
+    node: &Node,
+    to_world: &DAffine3,
+    model: &mut Model,
+) -> Result<(), FileError> {
     let index = node.extensions.get(NAME).and_then(|extension| extension.get("light")?.as_u64());
     let Some(index) = index.map(|index| index as usize) else { return Ok(()) };
-    let lights: PunctualLights = get(&document.extensions, NAME).unwrap_or_default();
     let light = lights.lights.get(index).ok_or_else(|| missing("light", index))?;
     let intensity = light.intensity.unwrap_or(1.0) / LUMENS_PER_WATT;
     let amount = Rgb(light.color.unwrap_or([1.0; 3]).map(|c| c * intensity));

@@ -45,6 +45,8 @@ pub(super) struct Materials<'a> {
     pub(super) file: &'a str,
     /// Names by the index of a material, and what vertices say.
     names: BTreeMap<(Option<usize>, Painted), String>,
+    /// How many there are of a name.
+    counts: BTreeMap<String, usize>,
 }
 
 /// What vertices say to materials.
@@ -60,7 +62,7 @@ const OCCLUSION: &str = "occlusion is computed, not read";
 
 impl<'a> Materials<'a> {
     pub(super) fn new(document: &'a Document, pictures: &'a Pictures, file: &'a str) -> Self {
-        Self { document, pictures, file, names: BTreeMap::new() }
+        Self { document, pictures, file, names: BTreeMap::new(), counts: BTreeMap::new() }
     }
 
     /// The name of a material, of the default one if there is no index, that is in the scene now.
@@ -78,8 +80,11 @@ impl<'a> Materials<'a> {
         let default = Material::default();
         let material = index.and_then(|i| self.document.materials.get(i)).unwrap_or(&default);
         let mut name = if material.name.is_empty() { "material".to_owned() } else { material.name.clone() };
-        if desc.material.contains_key(&name) {
-            name = (2..).map(|n| format!("{name}-{n}")).find(|name| !desc.material.contains_key(name)).unwrap_or(name);
+        let count = self.counts.entry(name.clone()).or_insert(1);
+        let base = name.clone();
+        while desc.material.contains_key(&name) {
+            *count += 1;
+            name = format!("{base}-{count}");
         }
         let count = warnings.len();
         Maker { all: self, material, name: &name, painted, mirror: None, desc, warnings }.make();

@@ -29,6 +29,12 @@ pub(super) struct Compressed {
 const MOST_GAIN: usize = 256;
 
 impl Compressed {
+    /// No more can come out.
+    pub(super) fn most_bytes(&self) -> u64 {
+        let said = self.count.saturating_mul(self.byte_stride);
+        said.min(self.byte_length.saturating_mul(MOST_GAIN)) as u64
+    }
+
     /// The bytes that stand for `code`.
     pub(super) fn decode(&self, code: &[u8]) -> Result<Vec<u8>, FileError> {
         let size =

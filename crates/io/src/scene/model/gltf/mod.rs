@@ -6,6 +6,7 @@ mod accessor;
 mod animation;
 mod attribute;
 mod camera;
+mod closed;
 mod container;
 mod directions;
 mod document;
@@ -16,6 +17,7 @@ mod material;
 mod mesh;
 mod meshopt;
 mod node;
+mod plan;
 mod reflectance;
 mod shapes;
 mod surroundings;
@@ -23,28 +25,33 @@ mod tangents;
 mod texture;
 mod variants;
 
-use std::path::Path;
-
 use self::accessor::{Buffers, Bytes};
 use self::container::Container;
 use self::document::Document;
 use self::material::Materials;
 use self::texture::Pictures;
 use crate::error::{At, Error, FileError};
-use crate::file;
-use crate::scene::ReadOptions;
+use crate::memory::Memory;
 use crate::scene::model::Model;
-use crate::scene::model::folder;
+use crate::scene::model::choose::choose;
+use crate::scene::model::files::{Files, Input};
+use crate::scene::{Contents, ReadOptions};
 use crate::warning::Warning;
 
-pub(super) fn read(path: &Path, options: &ReadOptions<'_>) -> Result<Model, Error> {
-    let bytes = file::read(path)?;
-    let name = path.display().to_string();
-    read_bytes(&name, &bytes, folder::of(path), options).map_err(|e| e.of(&name))
+pub(super) fn read(input: &Input<'_>, options: &ReadOptions<'_>, memory: &Memory) -> Result<Model, Error> {
+    let Input { name, files, .. } = input;
+    read_bytes(name, &input.bytes()?, *files, options, memory).map_err(|e| e.of(name))
 }
 
-fn read_bytes(name: &str, bytes: &[u8], folder: &Path, options: &ReadOptions<'_>) -> Result<Model, FileError> {
+fn read_bytes(
+    name: &str,
+    bytes: &[u8],
+    files: Files<'_>,
+    options: &ReadOptions<'_>,
+    memory: &Memory,
+) -> Result<Model, FileError> {
     let Container { json, bytes } = Container::open(bytes)?;
+    memory.check(document::size(json))?;
     let mut document: Document =
         serde_json::from_slice(json).map_err(|e| FileError::new(e.to_string()).at(At::Line(e.line())))?;
     let version = &document.asset.version;
@@ -53,30 +60,56 @@ fn read_bytes(name: &str, bytes: &[u8], folder: &Path, options: &ReadOptions<'_>
     }
     let mut model = Model::new();
     extensions::check(&document, &mut model.warnings)?;
-    let bytes = Bytes::new(&document, load(&document, bytes, folder)?)?;
-    pose(&mut document, &bytes, options, &mut model.warnings)?;
+    let bytes = Bytes::new(&document, load(&document, bytes, files, memory)?, memory)?;
+    pose(&mut document, &bytes, memory, options, &mut model.warnings)?;
     if let Some(variant) = options.variant {
         variants::choose(&mut document, variant)?;
     }
-    let buffers = Buffers { document: &document, bytes: &bytes };
-    let pictures = Pictures::read(&buffers, folder, &mut model.warnings);
+    let buffers = Buffers { document: &document, bytes: &bytes, memory };
+    let pictures = Pictures::read(&buffers, files, &mut model.warnings);
     let mut materials = Materials::new(&document, &pictures, name);
-    let placed = node::in_world(&document, document.scene.unwrap_or(0))?;
+    let scene = scene(&document, options.scene, &mut model.warnings)?;
+    let placed = node::in_world(&document, scene)?;
+    model.contents = Contents {
+        generator: document.asset.generator.clone(),
+        scenes: document.scenes.iter().map(|scene| scene.name.clone()).collect(),
+        scene: Some(scene),
+        animations: animation::all(&buffers),
+        ..Contents::default()
+    };
+    plan::check(&buffers, &placed)?;
+    let lights = light::all(&document);
     for &(index, to_world) in &placed {
         let Some(node) = document.nodes.get(index) else { continue };
-        camera::read(&document, node, &to_world, &mut model)?;
-        light::read(&document, node, &to_world, &mut model)?;
+        camera::read(&document, node, &to_world, &mut model);
+        light::read(&lights, node, &to_world, &mut model)?;
     }
-    surroundings::read(&buffers, folder, &mut model)?;
+    surroundings::read(&buffers, scene, files, &mut model)?;
     shapes::read(&buffers, &placed, &mut materials, &mut model)?;
     model.warnings.dedup();
     Ok(model)
+}
+
+/// The scene that is wanted, or that the file says; of others that nobody asked for there is a warning.
+fn scene(document: &Document, wanted: Option<&str>, warnings: &mut Vec<Warning>) -> Result<usize, FileError> {
+    if let Some(wanted) = wanted {
+        return choose("scene", wanted, document.scenes.iter().map(|scene| scene.name.as_str()));
+    }
+    let scene = document.scene.unwrap_or(0);
+    if document.scenes.len() > 1 {
+        let other = usize::from(scene == 0);
+        let message = format!("of {} scenes number {scene} is read alone", document.scenes.len());
+        let hint = Some(format!("`--scene {other}` reads another"));
+        warnings.push(Warning { hint, ..Warning::new(message) });
+    }
+    Ok(scene)
 }
 
 /// Moves nodes to where an animation has them; of one that nobody asked for there is a warning.
 fn pose(
     document: &mut Document,
     bytes: &Bytes,
+    memory: &Memory,
     options: &ReadOptions<'_>,
     warnings: &mut Vec<Warning>,
 ) -> Result<(), FileError> {
@@ -90,17 +123,22 @@ fn pose(
         return Ok(());
     };
     let animation = animation::find(document, name)?;
-    let changes = animation::sample(&Buffers { document, bytes }, animation, options.at)?;
+    let changes = animation::sample(&Buffers { document, bytes, memory }, animation, options.at)?;
     animation::apply(document, changes);
     Ok(())
 }
 
 /// The bytes of all buffers; the first may be those behind the JSON.
-fn load(document: &Document, mut behind: Option<&[u8]>, folder: &Path) -> Result<Vec<Vec<u8>>, FileError> {
+fn load(
+    document: &Document,
+    mut behind: Option<&[u8]>,
+    files: Files<'_>,
+    memory: &Memory,
+) -> Result<Vec<Vec<u8>>, FileError> {
     let mut buffers = Vec::new();
     for (i, buffer) in document.buffers.iter().enumerate() {
         let bytes = match (&buffer.uri, behind.take()) {
-            (Some(uri), _) => container::resolve(uri, folder)?,
+            (Some(uri), _) => container::resolve(uri, files)?,
             (None, Some(bytes)) if i == 0 => bytes.to_vec(),
             // Filled by an extension, if at all.
             (None, _) => Vec::new(),
@@ -109,6 +147,7 @@ fn load(document: &Document, mut behind: Option<&[u8]>, folder: &Path) -> Result
             let (has, wants) = (bytes.len(), buffer.byte_length);
             return Err(FileError::new(format!("buffer {i} has {has} of {wants} bytes")));
         }
+        memory.take(bytes.len() as u64)?;
         buffers.push(bytes);
     }
     Ok(buffers)

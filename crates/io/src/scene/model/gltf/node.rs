@@ -1,5 +1,7 @@
 //! Where nodes are in the world.
 
+use std::collections::BTreeSet;
+
 use glam::{DAffine3, DMat4, DQuat};
 
 use crate::error::FileError;
@@ -19,8 +21,8 @@ pub(super) fn in_world(document: &Document, scene: usize) -> Result<Vec<(usize, 
         Some(scene) => scene.nodes.clone(),
         // A file without scenes: all nodes without parents.
         None => {
-            let is_child = |i: &usize| document.nodes.iter().any(|node| node.children.contains(i));
-            (0..document.nodes.len()).filter(|i| !is_child(i)).collect()
+            let children: BTreeSet<_> = document.nodes.iter().flat_map(|node| &node.children).collect();
+            (0..document.nodes.len()).filter(|i| !children.contains(i)).collect()
         }
     };
     let mut seen = vec![false; document.nodes.len()];
@@ -60,17 +62,26 @@ fn transform(translation: [f64; 3], rotation: [f64; 4], scale: [f64; 3]) -> DAff
     DAffine3::from_scale_rotation_translation(scale.into(), rotation, translation.into())
 }
 
+/// How many copies of a node's mesh there are, if that is said.
+pub(super) fn copy_count(document: &Document, node: &Node) -> Option<usize> {
+    let Instancing { attributes } = get(&node.extensions, INSTANCING)?;
+    let names = ["TRANSLATION", "ROTATION", "SCALE"];
+    let accessors = names.iter().filter_map(|name| document.accessors.get(*attributes.get(*name)?));
+    Some(accessors.map(|accessor| accessor.count).min().unwrap_or_default())
+}
+
+const INSTANCING: &str = "EXT_mesh_gpu_instancing";
+
 /// Where the copies of a node's mesh are in its space: `EXT_mesh_gpu_instancing`; one that rests if there is no such thing.
 pub(super) fn copies(buffers: &Buffers<'_>, node: &Node) -> Result<Vec<DAffine3>, FileError> {
-    let Some(Instancing { attributes }) = get(&node.extensions, "EXT_mesh_gpu_instancing") else {
+    let Some(Instancing { attributes }) = get(&node.extensions, INSTANCING) else {
         return Ok(vec![DAffine3::IDENTITY]);
     };
     let [moves, scales] = [("TRANSLATION", 0.0), ("SCALE", 1.0)]
         .map(|(name, rest)| attributes.get(name).map(|&i| buffers.floats::<3>(i, rest)).transpose());
     let (moves, scales) = (moves?, scales?);
     let turns = attributes.get("ROTATION").map(|&i| buffers.floats::<4>(i, 0.0)).transpose()?;
-    let lengths = [moves.as_ref().map(Vec::len), scales.as_ref().map(Vec::len), turns.as_ref().map(Vec::len)];
-    let count = lengths.into_iter().flatten().min().unwrap_or_default();
+    let count = copy_count(buffers.document, node).unwrap_or_default();
     let copy = |i: usize| {
         let vector =
             |list: &Option<Vec<[f32; 3]>>, rest| list.as_ref().and_then(|l| l.get(i)).copied().unwrap_or([rest; 3]);

@@ -1,25 +1,25 @@
 //! The meshes of nodes where they stand. One that stands in many places is there once, with copies.
 
 use std::collections::BTreeMap;
+use std::collections::btree_map::Entry;
+use std::rc::Rc;
 use std::sync::Arc;
 
-use eyebeam_core::shape::{MeshData, MeshDesc};
+use eyebeam_core::shape::MeshDesc;
 use glam::{DAffine3, DMat4};
 
 use crate::error::FileError;
 use crate::scene::model::Model;
 use crate::scene::model::gltf::accessor::{Buffers, missing};
-use crate::scene::model::gltf::document::{Material, Mesh};
+use crate::scene::model::gltf::closed::is_closed;
+use crate::scene::model::gltf::document::{Document, Material, Mesh, Node, Primitive};
 use crate::scene::model::gltf::material::{self, Materials, Painted};
 use crate::scene::model::gltf::{mesh, node, tangents};
 use crate::warning::Warning;
 
-/// Triangles of all meshes.
-const MOST_TRIANGLES: usize = 100_000_000;
-
 /// Triangles of all copies of a mesh that are few enough to be meshes of their own: rays find these faster, and copies take less
 /// memory.
-const FEW: usize = 1 << 16;
+const FEW: u64 = 1 << 16;
 
 /// A mesh in a pose, and where it stands.
 struct Group<'a> {
@@ -29,7 +29,7 @@ struct Group<'a> {
     /// How much there is of each morph target.
     weights: &'a [f32],
     /// Where each joint has moved since the skin was bound, in the world.
-    joints: Option<Vec<DAffine3>>,
+    joints: Option<Rc<[DAffine3]>>,
     /// To the world; meshes with joints are there already.
     places: Vec<DAffine3>,
 }
@@ -42,7 +42,7 @@ pub(super) fn read(
     model: &mut Model,
 ) -> Result<(), FileError> {
     let groups = groups(buffers, placed)?;
-    let (mut triangles, mut skipped) = (0, 0);
+    let mut skipped = 0;
     for (group, primitive) in groups.iter().flat_map(|group| group.mesh.primitives.iter().map(move |p| (group, p))) {
         let joints = group.joints.as_deref().filter(|_| primitive.attributes.contains_key("JOINTS_0"));
         let Some(mut data) = mesh::read(buffers, primitive, group.weights, joints)? else {
@@ -66,19 +66,12 @@ pub(super) fn read(
         }
         let file = format!("{}#node{}", materials.file, group.node);
         let places = if joints.is_some() { &[DAffine3::IDENTITY] } else { &group.places[..] };
-        let all = places.len().saturating_mul(data.triangles.len());
-        // Copies that shine would hardly be found.
-        let is_shared = places.len() > 1 && all > FEW && !shines(said);
-        triangles += if is_shared { data.triangles.len() } else { all };
-        if triangles > MOST_TRIANGLES {
-            return Err(FileError::new(format!("the model has more than {MOST_TRIANGLES} triangles")));
-        }
         let mesh = |data, instances| {
             let (file, material) = (Some(file.clone()), Some(material.clone()));
             MeshDesc { file, material, instances, data: Some(Arc::new(data)), ..MeshDesc::default() }
         };
         let meshes = &mut model.desc.shape.mesh;
-        if is_shared {
+        if is_shared(buffers.document, primitive, places.len() as u64, data.triangles.len() as u64) {
             meshes.push(mesh(data, places.iter().map(rows).collect()));
             continue;
         }
@@ -99,13 +92,13 @@ fn groups<'a>(buffers: &Buffers<'a>, placed: &[(usize, DAffine3)]) -> Result<Vec
     let document = buffers.document;
     let in_world: BTreeMap<usize, DAffine3> = placed.iter().copied().collect();
     let mut groups: Vec<Group<'_>> = Vec::new();
-    let mut group_of = BTreeMap::new();
+    let (mut group_of, mut skins) = (BTreeMap::new(), BTreeMap::new());
     for &(index, to_world) in placed {
         let Some(node) = document.nodes.get(index) else { continue };
         let Some(number) = node.mesh else { continue };
         let mesh = document.meshes.get(number).ok_or_else(|| missing("mesh", number))?;
         let places = node::copies(buffers, node)?.into_iter().map(|copy| to_world * copy);
-        let is_plain = node.skin.is_none() && node.weights.is_empty();
+        let is_plain = is_plain(node);
         if let Some(group) = group_of.get(&number).and_then(|&g: &usize| groups.get_mut(g)).filter(|_| is_plain) {
             group.places.extend(places);
             continue;
@@ -113,7 +106,12 @@ fn groups<'a>(buffers: &Buffers<'a>, placed: &[(usize, DAffine3)]) -> Result<Vec
         if is_plain {
             group_of.insert(number, groups.len());
         }
-        let joints = node.skin.map(|skin| joints(buffers, skin, &in_world)).transpose()?;
+        if let Some(skin) = node.skin
+            && let Entry::Vacant(entry) = skins.entry(skin)
+        {
+            entry.insert(Rc::from(joints(buffers, skin, &in_world)?));
+        }
+        let joints = node.skin.and_then(|skin| skins.get(&skin).cloned());
         let weights = if node.weights.is_empty() { &mesh.weights } else { &node.weights };
         groups.push(Group { node: index, mesh, weights, joints, places: places.collect() });
     }
@@ -126,36 +124,16 @@ fn rows(place: &DAffine3) -> [f32; 12] {
     std::array::from_fn(|i| columns[i % 4][i / 4] as f32)
 }
 
-/// Whether a material gives light.
-fn shines(material: &Material) -> bool {
-    material.emissive_factor != [0.0; 3] || material.extensions.contains_key("KHR_materials_unlit")
+/// Whether a node's mesh is in the same pose wherever it is.
+pub(super) fn is_plain(node: &Node) -> bool {
+    node.skin.is_none() && node.weights.is_empty()
 }
 
-/// Whether each edge is there as often in one direction as in the other, so that nothing is seen from behind but from within: the sum over
-/// all edges of a number for each place where it begins and ends, which the other direction takes away.
-fn is_closed(mesh: &MeshData) -> bool {
-    let place = |index: u32| -> Option<u64> {
-        let vertex = mesh.vertices.get(index as usize)?;
-        // −0 is 0.
-        Some(vertex.iter().fold(0, |hash, &c| scramble(hash ^ u64::from((c + 0.0).to_bits()))))
-    };
-    let edge = |a: u64, b: u64| {
-        if a < b { scramble(a ^ b.rotate_left(1)) } else { scramble(b ^ a.rotate_left(1)).wrapping_neg() }
-    };
-    let around = |&[a, b, c]: &[u32; 3]| -> Option<u64> {
-        let [a, b, c] = [place(a)?, place(b)?, place(c)?];
-        let edges = [(a, b), (b, c), (c, a)].into_iter().filter(|(a, b)| a != b);
-        Some(edges.fold(0, |sum: u64, (a, b)| sum.wrapping_add(edge(a, b))))
-    };
-    mesh.triangles.iter().filter_map(around).fold(0, u64::wrapping_add) == 0
-}
-
-/// Other bits for each number: the finaliser of SplitMix64 (Steele, Lea & Flood 2014, doi:10.1145/2660193.2660195).
-fn scramble(number: u64) -> u64 {
-    let z = number.wrapping_add(0x9e37_79b9_7f4a_7c15);
-    let z = (z ^ (z >> 30)).wrapping_mul(0xbf58_476d_1ce4_e5b9);
-    let z = (z ^ (z >> 27)).wrapping_mul(0x94d0_49bb_1331_11eb);
-    z ^ (z >> 31)
+/// Whether copies of a primitive of so many triangles share its memory. Those that shine would hardly be found.
+pub(super) fn is_shared(document: &Document, primitive: &Primitive, copies: u64, triangles: u64) -> bool {
+    let shines = |m: &Material| m.emissive_factor != [0.0; 3] || m.extensions.contains_key("KHR_materials_unlit");
+    let material = primitive.material.and_then(|index| document.materials.get(index));
+    copies > 1 && copies.saturating_mul(triangles) > FEW && !material.is_some_and(shines)
 }
 
 /// From where the joints of a skin were when it was bound to where they are in the world.
@@ -175,23 +153,4 @@ fn joints(
         Ok(to_world * DAffine3::from_mat4(DMat4::from_cols_array(&bound)))
     };
     skin.joints.iter().enumerate().map(joint).collect()
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn a_tetrahedron_is_closed_and_without_a_side_it_is_not() {
-        let corners = [[0.0, 0.0, 0.0], [1.0, 0.0, -0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]];
-        // The last vertex is the first one again, as where textures have a seam.
-        let vertices = [&corners[..], &[[-0.0, 0.0, 0.0]]].concat();
-        let triangles = vec![[0, 2, 1], [0, 1, 3], [4, 3, 2], [1, 2, 3]];
-        let mut mesh = MeshData { vertices, triangles, ..MeshData::default() };
-        assert!(is_closed(&mesh));
-        mesh.triangles[1] = [0, 3, 1];
-        assert!(!is_closed(&mesh), "one is the wrong way round");
-        mesh.triangles.pop();
-        assert!(!is_closed(&mesh));
-    }
 }

@@ -3,7 +3,6 @@
 //! Pictures with an alpha are divided by it (RGBD), others are plain. Each is seen from inside, upright on the four sides. The further
 //! pictures of the extension, which are blurred, and its coefficients of diffuse light are what light itself computes.
 
-use std::path::Path;
 use std::sync::Arc;
 
 use eyebeam_core::film::{Image, Wrap};
@@ -13,9 +12,9 @@ use glam::{Quat, Vec2, Vec3};
 use serde::Deserialize;
 
 use crate::error::FileError;
-use crate::image::{pixels_size, read_pixels_bytes};
-use crate::scene::assets::MAX_BYTES;
+use crate::image::{image_size, read_pixels_bytes};
 use crate::scene::model::Model;
+use crate::scene::model::files::Files;
 use crate::scene::model::gltf::accessor::{Buffers, missing};
 use crate::scene::model::gltf::extensions::get;
 use crate::scene::model::gltf::texture;
@@ -43,9 +42,9 @@ struct Named {
 }
 
 /// The surroundings of the scene that is shown, if it has any.
-pub(super) fn read(buffers: &Buffers<'_>, folder: &Path, model: &mut Model) -> Result<(), FileError> {
+pub(super) fn read(buffers: &Buffers<'_>, scene: usize, files: Files<'_>, model: &mut Model) -> Result<(), FileError> {
     let document = buffers.document;
-    let scene = document.scenes.get(document.scene.unwrap_or(0));
+    let scene = document.scenes.get(scene);
     let Some(Named { light: index }) = scene.and_then(|scene| get(&scene.extensions, NAME)) else { return Ok(()) };
     let Lights { lights } = get(&document.extensions, NAME).unwrap_or_default();
     let light = lights.get(index).ok_or_else(|| missing("image-based light", index))?;
@@ -57,7 +56,7 @@ pub(super) fn read(buffers: &Buffers<'_>, folder: &Path, model: &mut Model) -> R
     let mut cube = Vec::new();
     for &side in sides {
         cube.push(
-            picture(buffers, folder, side).map_err(|e| FileError {
+            picture(buffers, files, side).map_err(|e| FileError {
                 message: format!("picture {side} of the surroundings: {}", e.message),
                 ..e
             })?,
@@ -77,12 +76,10 @@ pub(super) fn read(buffers: &Buffers<'_>, folder: &Path, model: &mut Model) -> R
 }
 
 /// Linear light.
-fn picture(buffers: &Buffers<'_>, folder: &Path, index: usize) -> Result<Image, FileError> {
-    let bytes = texture::bytes(buffers, folder, index)?;
-    // All six, as light and as a panorama.
-    if pixels_size("", &bytes)? > MAX_BYTES / 64 {
-        return Err(FileError::new(format!("it takes more than {} MiB", (MAX_BYTES / 64) >> 20)));
-    }
+fn picture(buffers: &Buffers<'_>, files: Files<'_>, index: usize) -> Result<Image, FileError> {
+    let bytes = texture::bytes(buffers, files, index)?;
+    // As it is, as light, and as a part of the panorama.
+    buffers.memory.take(3 * image_size("", &bytes)?)?;
     let (pixels, _) = read_pixels_bytes("", &bytes)?;
     let mut image = pixels.to_image();
     let channels = pixels.channels();

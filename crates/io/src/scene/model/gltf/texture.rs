@@ -4,7 +4,6 @@
 //! other numbers.
 
 use std::collections::BTreeMap;
-use std::path::Path;
 use std::sync::Arc;
 
 use eyebeam_core::film::Wrap;
@@ -13,7 +12,7 @@ use rayon::prelude::*;
 
 use crate::error::FileError;
 use crate::image::{pixels_size, read_pixels_bytes};
-use crate::scene::assets::MAX_BYTES;
+use crate::scene::model::files::Files;
 use crate::scene::model::gltf::accessor::{Buffers, missing};
 use crate::scene::model::gltf::container;
 use crate::scene::model::gltf::document::{Document, Texture, TextureInfo, TextureTransform};
@@ -24,18 +23,21 @@ pub(super) struct Pictures(BTreeMap<usize, Arc<Pixels>>);
 
 impl Pictures {
     /// Decodes all at the same time.
-    pub(super) fn read(buffers: &Buffers<'_>, folder: &Path, warnings: &mut Vec<Warning>) -> Self {
+    pub(super) fn read(buffers: &Buffers<'_>, files: Files<'_>, warnings: &mut Vec<Warning>) -> Self {
         let mut sources: Vec<_> = buffers.document.textures.iter().filter_map(Texture::picture).collect();
         sources.sort_unstable();
         sources.dedup();
-        let mut taken = 0;
+        // Those of the same bytes are one.
+        let mut firsts = BTreeMap::new();
+        let mut first_of = |&index: &usize| {
+            let picture = buffers.document.images.get(index);
+            (index, *firsts.entry(picture.map(|picture| (&picture.uri, picture.buffer_view))).or_insert(index))
+        };
+        let shared: Vec<_> = sources.iter().map(&mut first_of).filter(|(index, first)| index != first).collect();
         let mut encoded = Vec::new();
-        for index in sources {
-            let bytes = bytes(buffers, folder, index).and_then(|bytes| {
-                taken += pixels_size("", &bytes)?;
-                if taken > MAX_BYTES {
-                    return Err(FileError::new(format!("the pictures take more than {} GiB", MAX_BYTES >> 30)));
-                }
+        for index in firsts.into_values() {
+            let bytes = bytes(buffers, files, index).and_then(|bytes| {
+                buffers.memory.take(bytes.len() as u64 + pixels_size("", &bytes)?)?;
                 Ok(bytes)
             });
             encoded.push((index, bytes));
@@ -57,6 +59,10 @@ impl Pictures {
                     ..Warning::new(format!("picture {index} is left out: {}", e.message))
                 }),
             }
+        }
+        for (index, first) in shared {
+            let picture = pictures.get(&first).cloned();
+            pictures.extend(picture.map(|picture| (index, picture)));
         }
         Self(pictures)
     }
@@ -131,10 +137,10 @@ pub(super) fn mapping(info: &TextureInfo) -> Mapping {
     }
 }
 
-pub(super) fn bytes(buffers: &Buffers<'_>, folder: &Path, index: usize) -> Result<Vec<u8>, FileError> {
+pub(super) fn bytes(buffers: &Buffers<'_>, files: Files<'_>, index: usize) -> Result<Vec<u8>, FileError> {
     let picture = buffers.document.images.get(index).ok_or_else(|| missing("picture", index))?;
     match (&picture.uri, picture.buffer_view) {
-        (Some(uri), _) => container::resolve(uri, folder),
+        (Some(uri), _) => container::resolve(uri, files),
         (None, Some(view)) => Ok(buffers.view(view)?.to_vec()),
         (None, None) => Err(FileError::new("it is nowhere")),
     }

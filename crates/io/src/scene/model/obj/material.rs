@@ -33,7 +33,7 @@ use crate::warning::Warning;
 const ABOUT_BLACK: f32 = 0.05;
 
 /// Adds a material and its textures; the name that meshes are to use.
-pub(super) fn add(name: &str, mtl: &Mtl, pictures: &mut Pictures, model: &mut Model) -> String {
+pub(super) fn add(name: &str, mtl: &Mtl, pictures: &mut Pictures<'_>, model: &mut Model) -> String {
     let mut maker = Maker { name, mtl, pictures, model };
     let mut principled = Box::<Principled>::default();
     let is_clear = maker.lobes(&mut principled);
@@ -84,14 +84,14 @@ pub(super) fn add(name: &str, mtl: &Mtl, pictures: &mut Pictures, model: &mut Mo
     below
 }
 
-struct Maker<'a> {
+struct Maker<'a, 'f> {
     name: &'a str,
     mtl: &'a Mtl,
-    pictures: &'a mut Pictures,
+    pictures: &'a mut Pictures<'f>,
     model: &'a mut Model,
 }
 
-impl Maker<'_> {
+impl Maker<'_, '_> {
     /// A number of the library in 0..`most`.
     fn number(&self, key: &str, default: f32, most: f32) -> f32 {
         self.mtl.numbers.get(key).map_or(default, |number| number.clamp(0.0, most))

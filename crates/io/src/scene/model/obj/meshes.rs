@@ -52,6 +52,9 @@ pub(super) struct Meshes {
     /// Numbers of normals by position and group.
     made: HashMap<(u32, u32), u32>,
     sums: Vec<DVec3>,
+    /// Of all meshes.
+    vertices: usize,
+    triangles: usize,
 }
 
 #[derive(Debug, Default)]
@@ -63,6 +66,13 @@ struct Mesh {
 }
 
 impl Meshes {
+    /// That all take, about.
+    pub(super) fn bytes(&self) -> u64 {
+        // A vertex is in lists and in a table that may be half empty.
+        const VERTEX: usize = 120;
+        (VERTEX * self.vertices + 12 * self.triangles + 48 * self.sums.len()) as u64
+    }
+
     /// The normal of a smoothing group at a position.
     pub(super) fn made(&mut self, position: u32, group: u32) -> Result<Normal, FileError> {
         let count = u32::try_from(self.sums.len()).map_err(|_| FileError::new("there are too many normals"))?;
@@ -86,10 +96,13 @@ impl Meshes {
             }
         }
         let mesh = self.meshes.entry(key).or_default();
+        let before = mesh.data.vertices.len();
         let mut triangle = [0; 3];
         for (vertex, corner) in triangle.iter_mut().zip(corners) {
             *vertex = mesh.vertex(corner, points)?;
         }
+        self.vertices += mesh.data.vertices.len() - before;
+        self.triangles += 1;
         mesh.data.triangles.push(triangle);
         Ok(())
     }
@@ -143,6 +156,12 @@ impl Mesh {
 }
 
 impl Points {
+    /// That all take.
+    pub(super) fn bytes(&self) -> u64 {
+        let Self { positions, colors, uvs, normals } = self;
+        (size_of_val(&**positions) + size_of_val(&**colors) + size_of_val(&**uvs) + size_of_val(&**normals)) as u64
+    }
+
     /// Gives the last position a colour.
     pub(super) fn color(&mut self, color: [f32; 3]) {
         self.colors.resize(self.positions.len().saturating_sub(1), WHITE);

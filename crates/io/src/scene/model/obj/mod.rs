@@ -10,8 +10,8 @@ mod mtl;
 mod pictures;
 mod polygon;
 
-use std::collections::{BTreeMap, HashMap};
-use std::path::Path;
+use std::collections::{BTreeMap, BTreeSet, HashMap};
+use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
 use eyebeam_core::color::srgb_decode;
@@ -19,9 +19,10 @@ use eyebeam_core::shape::MeshDesc;
 use glam::{DVec3, Vec3};
 
 use crate::error::{At, Error, FileError};
+use crate::memory::Memory;
 use crate::scene::ReadOptions;
 use crate::scene::model::Model;
-use crate::scene::model::folder;
+use crate::scene::model::files::{Files, Input};
 use crate::scene::model::lines::Lines;
 use crate::scene::model::skipped::Skipped;
 use crate::warning::Warning;
@@ -29,20 +30,28 @@ use meshes::{Corner, Meshes, Normal, Points};
 use mtl::Mtl;
 use pictures::Pictures;
 
-pub(super) fn read(path: &Path, _: &ReadOptions<'_>) -> Result<Model, Error> {
-    let name = path.display().to_string();
+pub(super) fn read(input: &Input<'_>, _: &ReadOptions<'_>, memory: &Memory) -> Result<Model, Error> {
+    let name = &input.name;
     let mut reader = Reader::default();
-    let mut lines = Lines::open(path, true)?;
+    let mut lines = Lines::new(input.open()?.0, name, true)?;
     while let Some((number, line)) = lines.next()? {
-        reader.line(line, number).map_err(|e| e.at(At::Line(number)).of(&name))?;
+        let is_read = reader.line(line, number).and_then(|()| match number % LINES_BETWEEN_CHECKS {
+            0 => memory.check(reader.bytes()),
+            _ => Ok(()),
+        });
+        is_read.map_err(|e| e.at(At::Line(number)).of(name))?;
     }
+    memory.take(reader.bytes()).map_err(|e| e.of(name))?;
     if reader.faces == 0 {
         return Err(FileError::new("the file has no faces")
             .hint("it is empty, or holds curves or points alone")
-            .of(&name));
+            .of(name));
     }
-    Ok(reader.finish(path, &name))
+    Ok(reader.finish(input.files, name, memory))
 }
+
+/// After so many lines it is seen how much memory they take.
+const LINES_BETWEEN_CHECKS: usize = 1 << 16;
 
 #[derive(Default)]
 struct Reader {
@@ -65,6 +74,11 @@ struct Reader {
 }
 
 impl Reader {
+    /// That was read takes, about.
+    fn bytes(&self) -> u64 {
+        self.points.bytes() + self.meshes.bytes()
+    }
+
     fn line(&mut self, line: &str, number: usize) -> Result<(), FileError> {
         let line = line.trim();
         let (keyword, rest) = line.split_once(|c: char| c.is_ascii_whitespace()).unwrap_or((line, ""));
@@ -88,7 +102,7 @@ impl Reader {
             "usemtl" => self.use_material(rest.trim()),
             "mtllib" => {
                 let rest = rest.trim().to_owned();
-                if !self.libraries.contains(&rest) && self.libraries.len() < 1000 {
+                if !self.libraries.contains(&rest) && self.libraries.len() < MOST_LIBRARIES {
                     self.libraries.push(rest);
                 }
                 Ok(())
@@ -171,16 +185,13 @@ impl Reader {
         Ok(())
     }
 
-    fn finish(self, path: &Path, file: &str) -> Model {
+    fn finish(self, files: Files<'_>, file: &str, memory: &Memory) -> Model {
         let Self { points, meshes, materials, libraries, skipped, .. } = self;
         let mut model = Model::new();
         model.warnings = skipped.warnings(file);
-        let folder = folder::of(path);
-        let mut pictures = Pictures::new(folder);
+        let mut pictures = Pictures::new(files, memory);
         let mut known = BTreeMap::new();
-        for library in &libraries {
-            read_libraries(folder, library, &mut known, &mut model.warnings);
-        }
+        read_libraries(files, &libraries, &mut known, &mut model.warnings);
         let mut made = BTreeMap::new();
         for ((number, _), data) in meshes.finish(&points) {
             let name = (number as usize).checked_sub(1).and_then(|i| materials.get(i));
@@ -249,17 +260,31 @@ fn index(word: &str, count: usize, what: &str) -> Result<u32, FileError> {
     index.ok_or_else(|| FileError::new(format!("there is no {what} {number}: there are {count} before this line")))
 }
 
-/// Reads the libraries after a `mtllib`: one whose name has spaces, or several.
-fn read_libraries(folder: &Path, names: &str, known: &mut BTreeMap<String, Mtl>, warnings: &mut Vec<Warning>) {
-    let find = |name: &str| folder::below(folder, Path::new(name));
-    let names = if find(names).is_ok() { vec![names] } else { names.split_ascii_whitespace().collect() };
-    for name in names {
-        match find(name) {
-            Ok(path) => match mtl::read(&path, name, known) {
+/// Libraries of a file; more are not read.
+const MOST_LIBRARIES: usize = 1000;
+
+/// Reads the libraries after each `mtllib`: one whose name has spaces, or several. None is read twice.
+fn read_libraries(files: Files<'_>, lines: &[String], known: &mut BTreeMap<String, Mtl>, warnings: &mut Vec<Warning>) {
+    let find = |name: &str| files.find(Path::new(name));
+    let names_of = |line| if find(line).is_ok() { vec![line] } else { line.split_ascii_whitespace().collect() };
+    let (mut names, mut read) = (BTreeSet::new(), BTreeSet::new());
+    for name in lines.iter().flat_map(|line| names_of(line)) {
+        if names.len() == MOST_LIBRARIES {
+            warnings.push(Warning::new(format!("only the first {MOST_LIBRARIES} libraries of materials are read")));
+            break;
+        }
+        if !names.insert(name) {
+            continue;
+        }
+        match find(name).map(|path| path.components().collect::<PathBuf>()) {
+            Ok(path) if !read.insert(path.clone()) => {}
+            Ok(path) => match mtl::read(files, &path, name, known) {
                 Ok(found) => warnings.extend(found),
                 Err(e) => warnings.push(Warning::new(format!("`{name}` is not read: {e}"))),
             },
-            Err(e) => warnings.push(Warning::new(format!("`{name}` is not read: {}", e.message))),
+            Err(e) => {
+                warnings.push(Warning { hint: e.hint, ..Warning::new(format!("`{name}` is not read: {}", e.message)) })
+            }
         }
     }
 }

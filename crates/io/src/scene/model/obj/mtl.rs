@@ -4,12 +4,14 @@
 //! Wavefront MTL format for physically-based rendering".
 
 use std::collections::BTreeMap;
+use std::io::Cursor;
 use std::path::{Path, PathBuf};
 
 use eyebeam_core::texture::Channel;
 
 use super::parse;
 use crate::error::Error;
+use crate::scene::model::files::Files;
 use crate::scene::model::lines::Lines;
 use crate::scene::model::skipped::Skipped;
 use crate::warning::Warning;
@@ -73,9 +75,15 @@ const MAPS: [(&str, &str); 10] = [
 ];
 
 /// Adds the materials of a library to those that are known; the first of a name stays.
-pub(super) fn read(path: &Path, name: &str, known: &mut BTreeMap<String, Mtl>) -> Result<Vec<Warning>, Error> {
+pub(super) fn read(
+    files: Files<'_>,
+    path: &Path,
+    name: &str,
+    known: &mut BTreeMap<String, Mtl>,
+) -> Result<Vec<Warning>, Error> {
     let mut skipped = Skipped::default();
-    let mut lines = Lines::open(path, true)?;
+    let file = path.display().to_string();
+    let mut lines = Lines::new(Box::new(Cursor::new(files.read(path)?)), &file, true)?;
     let folder = Path::new(&name.replace('\\', "/")).parent().map(Path::to_owned).unwrap_or_default();
     let mut current: Option<(String, Mtl)> = None;
     let mut keep = |material: Option<(String, Mtl)>, skipped: &mut Skipped| {

@@ -7,22 +7,21 @@ use std::sync::Arc;
 use eyebeam_core::texture::Pixels;
 
 use crate::error::{Error, FileError};
-use crate::file;
 use crate::image::{pixels_size, read_pixels_bytes};
-use crate::scene::assets::MAX_BYTES;
-use crate::scene::model::folder;
+use crate::memory::Memory;
+use crate::scene::model::files::Files;
 use crate::warning::Warning;
 
 /// Pictures that were read, each once; none of those that could not be.
-pub(super) struct Pictures {
-    folder: PathBuf,
+pub(super) struct Pictures<'a> {
+    files: Files<'a>,
     known: BTreeMap<PathBuf, Option<Arc<Pixels>>>,
-    bytes: u64,
+    memory: &'a Memory,
 }
 
-impl Pictures {
-    pub(super) fn new(folder: &Path) -> Self {
-        Self { folder: folder.to_owned(), known: BTreeMap::new(), bytes: 0 }
+impl<'a> Pictures<'a> {
+    pub(super) fn new(files: Files<'a>, memory: &'a Memory) -> Self {
+        Self { files, known: BTreeMap::new(), memory }
     }
 
     /// The picture of that name, and its path; none, and a warning, if it cannot be had. Warnings are told once for each file.
@@ -32,8 +31,11 @@ impl Pictures {
         name: &str,
         warnings: &mut Vec<Warning>,
     ) -> Option<(PathBuf, Arc<Pixels>)> {
-        let refused = |e: &FileError| Warning::new(format!("the picture `{name}` is not read: {}", e.message));
-        let path = match folder::below(&self.folder, &below.join(name)) {
+        let refused = |e: &FileError| Warning {
+            hint: e.hint.clone(),
+            ..Warning::new(format!("the picture `{name}` is not read: {}", e.message))
+        };
+        let path = match self.files.find(&below.join(name)) {
             Ok(path) => path,
             Err(e) => {
                 warnings.push(refused(&e));
@@ -51,11 +53,8 @@ impl Pictures {
 
     fn read(&mut self, path: &Path, warnings: &mut Vec<Warning>) -> Result<Arc<Pixels>, Error> {
         let name = path.display().to_string();
-        let bytes = file::read(path)?;
-        self.bytes = self.bytes.saturating_add(pixels_size(&name, &bytes)?);
-        if self.bytes > MAX_BYTES {
-            return Err(FileError::new(format!("pictures take more than {} GiB", MAX_BYTES >> 30)).of(&name));
-        }
+        let bytes = self.files.read(path)?;
+        self.memory.take(pixels_size(&name, &bytes)?).map_err(|e| e.of(&name))?;
         let (pixels, more) = read_pixels_bytes(&name, &bytes)?;
         warnings.extend(more);
         Ok(Arc::new(pixels))

@@ -1,0 +1,73 @@
+//! Good files that are cut off, or in which some bytes are wrong.
+
+use crate::{alone, attempt, random, samples};
+
+#[test]
+fn as_they_are_they_can_be_read() {
+    let _alone = alone();
+    for (name, bytes) in samples::all() {
+        assert_eq!(attempt(&name, &bytes), None, "{name}");
+    }
+}
+
+/// With a folder in `EYEBEAM_SEEDS`, writes them there: that is where fuzzing begins (`make fuzz`).
+#[test]
+fn fuzzing_begins_with_them() {
+    let _alone = alone();
+    let Some(folder) = std::env::var_os("EYEBEAM_SEEDS") else { return };
+    for (name, bytes) in samples::all() {
+        let target = match name.rsplit_once('.').unwrap_or_default().1 {
+            "glb" | "gltf" => "gltf",
+            "obj" | "mtl" => "obj",
+            "toml" => "scene",
+            "jpg" => "jpeg",
+            other => other,
+        };
+        let folder = std::path::Path::new(&folder).join(target);
+        std::fs::create_dir_all(&folder).unwrap();
+        std::fs::write(folder.join(&name), &bytes).unwrap();
+    }
+}
+
+#[test]
+fn cut_off() {
+    let _alone = alone();
+    for (name, bytes) in samples::all() {
+        // All places of short ones.
+        let step = if bytes.len() < 1000 { 1 } else { 64 };
+        for end in (0..bytes.len()).step_by(step) {
+            attempt(&name, &bytes[..end]);
+        }
+    }
+}
+
+#[test]
+fn with_wrong_bytes() {
+    let _alone = alone();
+    let mut state = 1;
+    for (name, bytes) in samples::all() {
+        for _ in 0..400 {
+            let mut bytes = bytes.clone();
+            for _ in 0..=random(&mut state) % 4 {
+                let at = random(&mut state) as usize % bytes.len();
+                bytes[at] ^= 1 << (random(&mut state) % 8);
+            }
+            attempt(&name, &bytes);
+        }
+    }
+}
+
+/// Numbers are what readers trust most: each is made large.
+#[test]
+fn with_wrong_numbers() {
+    let _alone = alone();
+    for (name, bytes) in samples::all() {
+        let Ok(text) = String::from_utf8(bytes) else { continue };
+        let places = text.match_indices(|c: char| c.is_ascii_digit()).map(|(at, _)| at);
+        for at in places.filter(|at| at % 3 == 0) {
+            for number in ["99999999999999999999", "4294967295", "-1", "1e39", "nan"] {
+                attempt(&name, format!("{}{number}{}", &text[..at], &text[at + 1..]).as_bytes());
+            }
+        }
+    }
+}
