@@ -2,8 +2,9 @@
 
 use std::time::{Duration, Instant};
 
+use eyebeam_core::shape::MeshData;
 use eyebeam_io::At;
-use eyebeam_io::scene::ply::{MeshData, read_ply, read_ply_bytes};
+use eyebeam_io::scene::ply::{read_ply, read_ply_bytes};
 use proptest::prelude::*;
 
 use crate::{corpus, flaw, has_ending};
