@@ -52,6 +52,8 @@ struct Info<'f> {
     /// Which of them this is.
     scene: Option<usize>,
     animations: Vec<Animation<'f>>,
+    /// Of the materials.
+    variants: &'f [String],
     warnings: Vec<Told<'f>>,
 }
 
@@ -115,7 +117,7 @@ struct Animation<'f> {
 
 impl<'f> Info<'f> {
     fn new(file: String, SceneFile { desc, warnings, contents, given, .. }: &'f SceneFile) -> Self {
-        let Contents { format, generator, scenes, scene, cameras, animations } = contents;
+        let Contents { format, generator, scenes, scene, cameras, animations, variants } = contents;
         let shape = &desc.shape;
         let named = cameras.iter().map(|camera| Camera::new(&camera.name, &camera.desc));
         let own = (cameras.is_empty() && given.camera).then(|| Camera::new("", &desc.camera));
@@ -146,6 +148,7 @@ impl<'f> Info<'f> {
             scenes,
             scene: *scene,
             animations: animations.iter().map(|a| Animation { name: &a.name, seconds: a.seconds }).collect(),
+            variants,
             warnings: report::told(warnings),
         }
     }
@@ -200,6 +203,9 @@ impl<'f> Info<'f> {
         }
         for (i, Animation { name, seconds }) in self.animations.iter().enumerate() {
             line("animation", &format!("{i} {name} ({seconds} s)"));
+        }
+        for (i, name) in self.variants.iter().enumerate() {
+            line("variant", &format!("{i} {name}"));
         }
         self.warnings.iter().for_each(|told| {
             let _ = writeln!(text, "{}", told.whole());

@@ -17,6 +17,8 @@ pub struct Contents {
     pub cameras: Vec<NamedCamera>,
     /// All animations.
     pub animations: Vec<Animation>,
+    /// Names of the variants of its materials.
+    pub variants: Vec<String>,
 }
 
 /// A camera that can be chosen.

@@ -74,12 +74,15 @@ impl Model {
 
     /// Takes the camera that is wanted, or the first. What a format knows nothing of cannot be wanted.
     fn choose(&mut self, options: &ReadOptions<'_>) -> Result<(), FileError> {
-        let Contents { scenes, cameras, animations, .. } = &self.contents;
+        let Contents { scenes, cameras, animations, variants, .. } = &self.contents;
         if let Some(wanted) = options.scene {
             choose("scene", wanted, scenes.iter().map(String::as_str))?;
         }
         if let Some(wanted) = options.animation {
             choose("animation", wanted, animations.iter().map(|animation| animation.name.as_str()))?;
+        }
+        if let Some(wanted) = options.variant {
+            choose("variant", wanted, variants.iter().map(String::as_str))?;
         }
         let index = match options.camera {
             None => 0,
@@ -132,11 +135,6 @@ pub(super) fn read(format: &ModelFormat, input: &Input<'_>, options: &ReadOption
             warnings.push(Warning::new(format!("{} files say what is up: `--up` is not used", format.name)))
         }
         (None, None) => {}
-    }
-    for (option, given) in [("animation", options.animation), ("variant", options.variant)] {
-        if given.is_some() && format.name != "glTF" {
-            warnings.push(Warning::new(format!("{} files have no {option}s: `--{option}` is not used", format.name)));
-        }
     }
     let problems = desc.check();
     if problems.is_empty() {

@@ -69,14 +69,20 @@ fn of_models_only_the_picture_can_be_changed() {
 
 /// What a format has not cannot be chosen.
 #[test]
-fn options_of_other_formats_are_told_of() {
+fn other_formats_have_nothing_to_choose() {
     let folder = TempDir::new().unwrap();
     let path = folder.path().join("t.ply");
     fs::write(&path, TRIANGLE).unwrap();
-    let options = ReadOptions { animation: Some("walk"), variant: Some("red"), ..ReadOptions::default() };
-    let warnings: Vec<_> = read_with(&path, &options).unwrap().warnings.into_iter().map(|w| w.message).collect();
-    let told = |option: &str| format!("PLY files have no {option}s: `--{option}` is not used");
-    assert_eq!(warnings, [told("animation"), told("variant")]);
+    let nothing = ReadOptions::default();
+    for (kind, options) in [
+        ("animation", ReadOptions { animation: Some("it"), ..nothing }),
+        ("variant", ReadOptions { variant: Some("it"), ..nothing }),
+        ("camera", ReadOptions { camera: Some("it"), ..nothing }),
+        ("scene", ReadOptions { scene: Some("it"), ..nothing }),
+    ] {
+        let error = read_with(&path, &options).unwrap_err().to_string();
+        assert!(error.contains(&format!("there is no {kind} `it`")) && error.contains("it has none"), "{error}");
+    }
 }
 
 #[test]

@@ -63,7 +63,7 @@ fn read_bytes(
     let bytes = Bytes::new(&document, load(&document, bytes, files, memory)?, memory)?;
     pose(&mut document, &bytes, memory, options, &mut model.warnings)?;
     if let Some(variant) = options.variant {
-        variants::choose(&mut document, variant)?;
+        variants::apply(&mut document, variant)?;
     }
     let buffers = Buffers { document: &document, bytes: &bytes, memory };
     let pictures = Pictures::read(&buffers, files, &mut model.warnings);
@@ -75,6 +75,7 @@ fn read_bytes(
         scenes: document.scenes.iter().map(|scene| scene.name.clone()).collect(),
         scene: Some(scene),
         animations: animation::all(&buffers),
+        variants: variants::names(&document),
         ..Contents::default()
     };
     plan::check(&buffers, &placed)?;

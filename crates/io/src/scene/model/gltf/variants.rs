@@ -3,6 +3,7 @@
 use serde::Deserialize;
 
 use crate::error::FileError;
+use crate::scene::model::choose::choose;
 use crate::scene::model::gltf::document::{Document, Primitive};
 use crate::scene::model::gltf::extensions::get;
 
@@ -33,19 +34,18 @@ struct Mapping {
     variants: Vec<usize>,
 }
 
+/// Names of all variants.
+pub(super) fn names(document: &Document) -> Vec<String> {
+    let Variants { variants } = get(&document.extensions, NAME).unwrap_or_default();
+    variants.into_iter().map(|variant| variant.name).collect()
+}
+
 /// Gives meshes the materials of a variant, by its name or its number.
 ///
 /// # Errors
 /// If there is none; they are listed.
-pub(super) fn choose(document: &mut Document, wanted: &str) -> Result<(), FileError> {
-    let Variants { variants } = get(&document.extensions, NAME).unwrap_or_default();
-    let by_name = variants.iter().position(|variant| variant.name == wanted);
-    let by_number = wanted.parse().ok().filter(|&i: &usize| i < variants.len());
-    let Some(chosen) = by_name.or(by_number) else {
-        let names: Vec<_> = variants.iter().enumerate().map(|(i, v)| format!("{i} `{}`", v.name)).collect();
-        let hint = if names.is_empty() { "it has none".to_owned() } else { format!("it has {}", names.join(", ")) };
-        return Err(FileError::new(format!("there is no variant `{wanted}`")).hint(hint));
-    };
+pub(super) fn apply(document: &mut Document, wanted: &str) -> Result<(), FileError> {
+    let chosen = choose("variant", wanted, names(document).iter().map(String::as_str))?;
     for primitive in document.meshes.iter_mut().flat_map(|mesh| &mut mesh.primitives) {
         if let Some(material) = material(primitive, chosen) {
             primitive.material = Some(material);
