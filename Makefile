@@ -118,6 +118,7 @@ pictures:
 	cargo run --release -- render scenes/lights.toml -o docs/pictures/lights.png --spp 512
 	cargo run --release -- render scenes/roughness.toml -o docs/pictures/roughness.png --spp 512 -r 800x300
 	cargo run --release -- render scenes/two-spheres.toml -o docs/pictures/two-spheres.png --spp 1024
+	cargo run --release -- render scenes/locomotive.glb -o docs/pictures/locomotive.jpg --spp 256
 
 # The pictures of the gallery (docs/gallery): less than half an hour on two cores.
 .PHONY: gallery meshes

@@ -7,8 +7,13 @@ use crate::Place;
 
 /// What follows `eyebeam` in the commands of a text; redirections and other programs' options stand before it.
 fn commands(text: &str) -> impl Iterator<Item = &str> {
-    let starts = ["eyebeam render scenes/", "cargo run --release -- render scenes/"];
-    text.lines().filter_map(move |line| starts.iter().find_map(|start| line.find(start).map(|at| &line[at..])))
+    let of_line = |line: &'_ str| {
+        let after = ["eyebeam ", "cargo run --release -- "].iter().find_map(|start| Some(line.split_once(start)?.1))?;
+        let (command, file) = after.split_once(' ')?;
+        let is_known = ["render", "info", "convert", "turntable"].contains(&command);
+        (is_known && file.starts_with("scenes/")).then_some(after.len())
+    };
+    text.lines().filter_map(move |line| Some(&line[line.len() - of_line(line)?..]))
 }
 
 #[test]
@@ -18,23 +23,32 @@ fn commands_of_the_documentation_run() {
     for name in ["README.md", "docs/formats/pictures.md", "docs/formats/scene.md", "docs/performance.md"] {
         for command in commands(&fs::read_to_string(root.join(name)).unwrap()) {
             let place = Place::new();
-            let (_, args) = command.split_once("render ").unwrap();
             // Small, and with its output here: what an option says last does not count twice, so theirs go.
             let mut kept = Vec::new();
-            let mut output = "out.png".to_owned();
-            let mut words = args.split_whitespace();
+            let mut output = None;
+            let mut words = command.split_whitespace();
             while let Some(word) = words.next() {
                 match word {
-                    "-r" | "--spp" => drop(words.next()),
-                    "-o" => output = format!("out.{}", words.next().unwrap().rsplit('.').next().unwrap()),
+                    "-r" | "--spp" | "-n" => drop(words.next()),
+                    "-o" => output = words.next(),
                     _ => kept.push(word.replace("scenes/", &format!("{}/scenes/", root.display()))),
                 }
             }
-            let run = place.run(&format!("render {} -o {output} -r 16x9 --spp 1", kept.join(" ")));
+            let kept = kept.join(" ");
+            let args = match (kept.split(' ').next(), output) {
+                (Some("render"), output) => {
+                    let ending = output.and_then(|name| name.rsplit('.').next()).unwrap_or("png");
+                    format!("{kept} -o out.{ending} -r 16x9 --spp 1")
+                }
+                (Some("turntable"), Some(output)) => format!("{kept} -o {output} -n 2 -r 16x9 --spp 1"),
+                _ => kept,
+            };
+            let run = place.run(&args);
             assert_eq!(run.code, Some(0), "{name}: {command}\n{}", run.stderr);
-            assert!(place.path(&output).exists());
+            // The scene that every place has, and what was made, if it is no text.
+            assert!(place.files().len() > 1 || !run.stdout.is_empty(), "{name}: {command}");
             count += 1;
         }
     }
-    assert!(count >= 4, "only {count} commands were found");
+    assert!(count >= 7, "only {count} commands were found");
 }

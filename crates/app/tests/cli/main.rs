@@ -2,6 +2,7 @@
 
 mod aov;
 mod convert;
+mod corpus;
 mod determinism;
 mod develop;
 mod examples;

@@ -1,6 +1,8 @@
 //! Files that are damaged, or made to do harm: an error with the name of the file, soon, and in little memory.
 
+mod bad;
 mod codecs;
+#[path = "../shared/corpus.rs"]
 mod corpus;
 mod damage;
 mod memory;
@@ -101,7 +103,7 @@ fn read_as(name: &str, bytes: &[u8], options: &ReadOptions<'_>) -> Result<(), Er
 /// Reads bytes, posed where they have an animation: they are read or refused by their name, in time. What is said, if anything.
 fn attempt(name: &str, bytes: &[u8]) -> Option<String> {
     // What has none has nothing to choose.
-    let animation = Some("0").filter(|_| name.starts_with("model."));
+    let animation = Some("0").filter(|_| name.starts_with("model.gl"));
     let options = ReadOptions { animation, at: 0.25, ..ReadOptions::default() };
     let error = watched(name, || read_as(name, bytes, &options)).0.err()?.to_string();
     assert!(error.contains(name.trim_end_matches(".mtl")), "{name}: {error}");

@@ -59,7 +59,8 @@ fn nothing_outside_its_folder() {
     for name in OUTSIDE {
         let refused = |text: String| {
             let is_named = text.contains(&name.escape_default().to_string()) || text.contains(name);
-            let is_refused = ["leads out of the folder", "No such file", "it is not a file"].iter().any(|why| text.contains(why));
+            let is_refused =
+                ["leads out of the folder", "No such file", "it is not a file"].iter().any(|why| text.contains(why));
             assert!(is_named && is_refused && !text.contains("root:"), "{name}: {text}");
         };
         let buffer = model(&[("/buffers/0", json!({ "uri": name, "byteLength": 92 }))]);

@@ -225,7 +225,7 @@ fn gap(from: &MeshData, to: &MeshData) -> f32 {
 
 #[test]
 fn what_others_compressed_is_what_it_was() {
-    let files = super::corpus("gltf", &["gltf"]);
+    let files = super::corpus::corpus("gltf", &["gltf"]);
     for (name, steps) in [("Box", 1 << 11), ("Duck", 1 << 11), ("MorphPrimitivesTest", 1 << 10)] {
         let file =
             |kind: &str| files.iter().find(|p| p.ends_with(Path::new(name).join(kind).join(format!("{name}.gltf"))));

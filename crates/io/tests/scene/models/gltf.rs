@@ -443,7 +443,7 @@ fn measure(file: &SceneFile) -> (f64, usize) {
 /// A box and a pirate of closed parts, from numbers that were compressed, are whole.
 #[test]
 fn compressed_numbers_are_decoded() {
-    let files = super::corpus("gltf", &["glb"]);
+    let files = super::corpus::corpus("gltf", &["glb"]);
     let file = |name: &str| files.iter().find(|path| path.ends_with(name));
     let [Some(packed_file), Some(plain), Some(pirate)] = ["BoxMeshopt.glb", "Box.glb", "pirate.glb"].map(file) else {
         return;
@@ -466,7 +466,7 @@ fn compressed_numbers_are_decoded() {
 /// Every file of the corpus is read; of those that are meant to be wrong, a sentence says why not.
 #[test]
 fn the_corpus_is_read_or_refused_with_a_reason() {
-    let [models, bad] = ["gltf", "bad"].map(|folder| super::corpus(folder, &["gltf", "glb"]));
+    let [models, bad] = ["gltf", "bad"].map(|folder| super::corpus::corpus(folder, &["gltf", "glb"]));
     assert!(models.is_empty() || models.len() > 40 && bad.len() > 20);
     for path in models {
         let file = read(&path, &[]).unwrap_or_else(|e| panic!("{}: {e}", path.display()));

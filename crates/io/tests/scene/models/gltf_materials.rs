@@ -177,7 +177,7 @@ fn a_variant_is_chosen() {
         assert_eq!(chosen(variant).as_deref(), Ok(material), "{variant:?}");
     }
     let error = chosen(Some("c")).unwrap_err();
-    assert!(error.contains("there is no variant `c`") && error.contains("it has 0 `a`, 1 `b`, 2 ``, 3 `0`"), "{error}");
+    assert!(error.contains("there is no variant `c`") && error.contains("it has 0 `a`, 1 `b`, 2, 3 `0`"), "{error}");
 }
 
 #[test]

@@ -1,5 +1,7 @@
 //! Models: what other programs write.
 
+#[path = "../../shared/corpus.rs"]
+mod corpus;
 mod draco;
 mod gltf;
 mod gltf_materials;
@@ -7,7 +9,7 @@ mod obj;
 mod stl;
 
 use std::fs;
-use std::path::{Path, PathBuf};
+use std::path::Path;
 
 use eyebeam_core::material::MaterialDesc;
 use eyebeam_core::setup::Given;
@@ -88,26 +90,4 @@ fn other_formats_have_nothing_to_choose() {
 #[test]
 fn a_model_that_is_missing_is_said() {
     assert!(read(Path::new("nowhere.ply"), &[]).unwrap_err().to_string().contains("cannot read `nowhere.ply`"));
-}
-
-/// All files below a folder of other people's whose names end in one of these, in the folder that `EYEBEAM_CORPUS` names or beside the
-/// repository; none, and a word about it, if there is none.
-fn corpus(folder: &str, endings: &[&str]) -> Vec<PathBuf> {
-    let beside = || Path::new(env!("CARGO_MANIFEST_DIR")).join("../../../shared/scenes");
-    let root = std::env::var_os("EYEBEAM_CORPUS").map_or_else(beside, PathBuf::from).join(folder);
-    if !root.is_dir() {
-        println!("not tested: there is no {folder}; EYEBEAM_CORPUS tells where it is");
-    }
-    let (mut found, mut folders) = (Vec::new(), vec![root]);
-    while let Some(folder) = folders.pop() {
-        for path in fs::read_dir(folder).into_iter().flatten().flatten().map(|entry| entry.path()) {
-            if path.is_dir() {
-                folders.push(path);
-            } else if path.extension().is_some_and(|e| endings.iter().any(|ending| e.eq_ignore_ascii_case(ending))) {
-                found.push(path);
-            }
-        }
-    }
-    found.sort();
-    found
 }

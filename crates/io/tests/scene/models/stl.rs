@@ -10,7 +10,7 @@ use proptest::prelude::Rng as _;
 use proptest::test_runner::{RngAlgorithm, TestRng};
 use tempfile::TempDir;
 
-use crate::models::corpus;
+use crate::models::corpus::corpus;
 
 const TEXT: &str = "solid a b\nfacet normal 0 0 1\n outer loop\n  vertex 0 0 0\n  vertex 1 0 0\n  vertex 0 0 2e0\n endloop\nendfacet\n\
     facet normal 0 0 1\n outer loop\n  vertex 0 0 0\n  vertex 0 0 2\n  vertex -1 0 0\n endloop\nendfacet\nendsolid a b\n";

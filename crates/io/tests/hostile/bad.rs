@@ -1,38 +1,20 @@
 //! Files that have broken other readers, from a folder beside the repository.
 
 use std::fs;
-use std::path::{Path, PathBuf};
 
 use eyebeam_io::ies::read_ies;
 use eyebeam_io::image::read_image;
 use eyebeam_io::scene::read;
 
+use crate::corpus::corpus;
 use crate::{alone, watched};
-
-/// All below a folder of other people's files, in the folder that `EYEBEAM_CORPUS` names or beside the repository; none, and a word
-/// about it, if there is none.
-fn corpus(folder: &str) -> Vec<PathBuf> {
-    let beside = || Path::new(env!("CARGO_MANIFEST_DIR")).join("../../../shared/scenes");
-    let root = std::env::var_os("EYEBEAM_CORPUS").map_or_else(beside, PathBuf::from).join(folder);
-    if !root.is_dir() {
-        println!("not tested: there is no {folder}; EYEBEAM_CORPUS tells where it is");
-    }
-    let (mut found, mut folders) = (Vec::new(), vec![root]);
-    while let Some(folder) = folders.pop() {
-        for path in fs::read_dir(folder).into_iter().flatten().flatten().map(|entry| entry.path()) {
-            if path.is_dir() { folders.push(path) } else { found.push(path) }
-        }
-    }
-    found.sort();
-    found
-}
 
 /// Every file as a scene or model and as a picture, whatever its ending: it is read, or an error names it.
 #[test]
 fn bad_files() {
     let _alone = alone();
     const ALLOWED: usize = 256 << 20;
-    for path in corpus("bad") {
+    for path in corpus("bad", &[]) {
         let name = path.display().to_string();
         let length = fs::metadata(&path).map_or(0, |file| file.len()) as usize;
         let readers: [(&str, &(dyn Fn() -> Result<(), eyebeam_io::Error> + Sync)); 3] = [
