@@ -61,7 +61,7 @@ impl<'s> Met<'s> {
     }
 
     /// From the space of the shape to the world, if that is another one.
-    fn to_world(&self) -> Option<DAffine3> {
+    fn to_world(self) -> Option<DAffine3> {
         self.object.placement.as_ref().map(|placement| placement.to_world(self.instance, self.time))
     }
 

@@ -47,7 +47,7 @@ impl Extent {
 
     /// How far one of the six sides is along the direction outwards: −x, x, −y and so on.
     pub(super) fn side(&self, side: usize) -> f32 {
-        if side % 2 == 0 { -self.min[side / 2] } else { self.max[side / 2] }
+        if side.is_multiple_of(2) { -self.min[side / 2] } else { self.max[side / 2] }
     }
 
     /// From corner to corner, metres.
