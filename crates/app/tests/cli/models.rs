@@ -71,7 +71,7 @@ fn what_takes_more_memory_than_is_allowed_is_refused_by_name() {
         place.run(&format!("{command} --memory 4M")).ends_with(0);
     }
     // What the picture needs comes on top.
-    place.run("render a.ply -r 200x200 --spp 1 --memory 4M").ends_with(5);
+    place.run("render a.ply -r 200x200 --spp 1 --memory 6M").ends_with(5);
     let run = place.run("check scene.toml --memory 2M").ends_with(3);
     assert!(run.stderr.contains("`a.ply` is not read: it would take 3 MiB"), "{}", run.stderr);
 }

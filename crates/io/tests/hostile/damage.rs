@@ -71,3 +71,12 @@ fn with_wrong_numbers() {
         }
     }
 }
+
+/// Found by fuzzing: vertices without numbers were none, and triangles had them.
+#[test]
+fn vertices_without_numbers() {
+    let _alone = alone();
+    let text = "ply\nformat ascii 1.0\nelement vertex 3\nelement face 1\nproperty list uchar int vertex_indices\nend_header\n3 0 1 2\n";
+    let error = attempt("mesh.ply", text.as_bytes()).unwrap();
+    assert!(error.contains("vertices have no numbers `x`, `y` and `z`"), "{error}");
+}

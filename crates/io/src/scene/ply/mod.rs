@@ -82,7 +82,7 @@ fn read_body(header: &Header, mut values: impl Values) -> Result<MeshData, FileE
     let vertices = header.only("vertex")?.map_or(0, |e| e.count) as u32;
     let is_read = |e: &Element| matches!(e.name.as_str(), "vertex" | "face" | "tristrips");
     let last = header.elements.iter().rposition(is_read).unwrap_or_default();
-    for element in header.elements.iter().take(last + 1).filter(|e| !e.properties.is_empty()) {
+    for element in header.elements.iter().take(last + 1).filter(|e| is_read(e) || !e.properties.is_empty()) {
         // Every value takes some bytes, so what is allocated is bounded by the length of the file.
         let shortest = element.properties.iter().map(|p| values.shortest(p.kind)).sum::<usize>();
         if element.count.saturating_mul(shortest) > values.remaining() {
