@@ -2,7 +2,7 @@
 
 use std::sync::Arc;
 
-use eyebeam_core::shape::{MeshData, MeshDesc};
+use eyebeam_core::shape::MeshDesc;
 
 use crate::error::Error;
 use crate::memory::Memory;
@@ -14,7 +14,7 @@ pub(super) fn read(input: &Input<'_>, _: &ReadOptions<'_>, memory: &Memory) -> R
     let mut model = Model::new();
     let bytes = input.bytes()?;
     memory.take(ply::mesh_size(&input.name, &bytes)?).map_err(|e| e.of(&input.name))?;
-    let data = MeshData::from(ply::read_ply_bytes(&input.name, &bytes)?);
+    let data = ply::read_ply_bytes(&input.name, &bytes)?;
     let material = (!data.colors.is_empty()).then(|| model.vertex_color());
     let (file, data) = (Some(input.name.clone()), Some(Arc::new(data)));
     model.desc.shape.mesh.push(MeshDesc { file, material, data, ..MeshDesc::default() });

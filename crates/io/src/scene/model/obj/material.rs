@@ -58,13 +58,10 @@ pub(super) fn add(name: &str, mtl: &Mtl, pictures: &mut Pictures<'_>, model: &mu
     if opacity.number() != Some(1.0) {
         layers.push(MaterialDesc::Mask(Mask::new(of(), opacity)));
     }
-    if shines {
-        if layers.len() > 1 {
-            layers.truncate(1);
-            model
-                .warnings
-                .push(Warning::new(format!("the material `{name}` shines: its relief and holes are not kept")));
-        }
+    if shines && layers.len() > 1 {
+        layers.truncate(1);
+        let message = format!("the material `{name}` shines: its relief and holes are not kept");
+        model.warnings.push(Warning::new(message));
     }
     let mut below = String::new();
     let count = layers.len();
