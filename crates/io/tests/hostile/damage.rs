@@ -80,3 +80,15 @@ fn vertices_without_numbers() {
     let error = attempt("mesh.ply", text.as_bytes()).unwrap();
     assert!(error.contains("vertices have no numbers `x`, `y` and `z`"), "{error}");
 }
+
+/// Found by fuzzing: the decoder went past the end of keys and values that are no whole words.
+#[test]
+fn keys_that_end_within_a_word() {
+    let _alone = alone();
+    let mut bytes = crate::codecs::ktx2();
+    bytes.extend([5, 0, 0, 0, b'a', 0, b'b', b'c', b'd']);
+    bytes[56..60].copy_from_slice(&180_u32.to_le_bytes());
+    bytes[60..64].copy_from_slice(&9_u32.to_le_bytes());
+    let error = attempt("picture.ktx2", &bytes).unwrap();
+    assert!(error.contains("the keys and values of the KTX2 end within a word"), "{error}");
+}

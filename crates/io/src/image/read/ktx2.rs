@@ -65,6 +65,12 @@ fn open(bytes: &[u8], more: u64) -> Result<Header, FileError> {
     check_length(bytes, width.into(), height.into(), PIXELS_IN_BYTE)?;
     let [compression, descriptor, length] = file.words(44)?;
     file.within(descriptor.into(), length.into())?;
+    // Pairs of keys and values end where words do; the decoder would run past the end of others.
+    let [pairs, of_pairs] = file.words(56)?;
+    file.within(pairs.into(), of_pairs.into())?;
+    if !pairs.is_multiple_of(4) || !of_pairs.is_multiple_of(4) {
+        return Err(FileError::new("the keys and values of the KTX2 end within a word").at(At::Byte(56)));
+    }
     // What the decoder reads of a description of one or two kinds of samples.
     let two = match length {
         44 => false,
