@@ -93,6 +93,13 @@ bench-peers: peers-setup
 	$(PEERS_PYTHON) bench/peers/compare.py --eyebeam target/release/eyebeam-bench --shared $(PEERS_SHARED)/peers \
 		--scratch $(PEERS_SCRATCH) $(ARGS)
 
+# Seconds to read a model and build its hierarchy, beside Mitsuba and Cycles.
+.PHONY: bench-load
+bench-load: peers-setup
+	cargo build --release --locked
+	$(PEERS_PYTHON) bench/peers/load.py --helmet $(PEERS_SHARED)/scenes/gltf/DamagedHelmet/glTF-Binary/DamagedHelmet.glb \
+		--scratch $(PEERS_SCRATCH) $(ARGS)
+
 # Whether our pictures are those of the references: means, offsets, blocks.
 agree-peers: peers-setup
 	$(PEERS_PYTHON) bench/peers/agree.py --renderer target/release/eyebeam-bench --scenes $(PEERS_SCRATCH)/scenes \

@@ -7,6 +7,7 @@ Run by `make bench-load`.
 
 import argparse
 import json
+import re
 import statistics
 import struct
 import subprocess
@@ -81,22 +82,22 @@ print("RESULT", time.perf_counter() - start)
 
 
 def own(eyebeam, model):
-    """Seconds of the phases `load` and `build`."""
-    command = [eyebeam, "render", model, "-q", "-r", "8x8", "--spp", "1", "-o", "/dev/null.png", "--stats", "-"]
-    command[command.index("/dev/null.png")] = str(Path(model).parent / "load.png")
-    phases = json.loads(subprocess.run(command, capture_output=True, check=True).stdout)["phases"]
-    return phases["load"] + phases["build"]
+    """Of loading and building."""
+    picture = Path(model).parent / "load.png"
+    command = [eyebeam, "render", model, "-q", "-r", "8x8", "--spp", "1", "-o", picture, "--stats", "-"]
+    seconds = json.loads(subprocess.run(command, capture_output=True, check=True).stdout)["seconds"]
+    return seconds["load"] + seconds["build"]
 
 
 def peer(python, script, files, scratch):
     """Seconds that the script measures itself; none if it fails."""
     command = [str(python), "-c", script, json.dumps([str(file) for file in files]), str(scratch / "load")]
     run = subprocess.run(command, capture_output=True, text=True, check=False)
-    found = [line for line in run.stdout.splitlines() if line.startswith("RESULT ")]
-    if not found:
+    found = re.search(r"RESULT ([0-9.]+)", run.stdout)
+    if found is None:
         print((run.stdout + run.stderr)[-300:], file=sys.stderr)
         return None
-    return float(found[-1].split()[1])
+    return float(found[1])
 
 
 def main():

@@ -27,6 +27,9 @@ impl Scene {
         if shines.iter().all(Option::is_none) {
             return lights;
         }
+        /// So many primitives are small, each a part of a lamp.
+        const MANY: usize = 1 << 13;
+        let places = if primitives.len() > MANY { 3 } else { 8 };
         let slots = self.bvh.slots();
         for (i, primitive) in primitives.iter().enumerate() {
             let object = self.object_of[i] as usize;
@@ -37,7 +40,7 @@ impl Scene {
             }
             let index = lights.len() as u32;
             let varies = shine.color.is_none().then_some(index);
-            let radiance = shine.color.unwrap_or_else(|| self.mean_radiance(primitive, i as u32));
+            let radiance = shine.color.unwrap_or_else(|| self.mean_radiance(primitive, i as u32, places));
             let slot = slots.get(i).copied().unwrap_or(Slot::NONE);
             if let Some(light) = AreaLight::new(primitive, slot, radiance, shine.two_sided, varies) {
                 self.objects[object].first_light.get_or_insert(index);
@@ -58,20 +61,18 @@ impl Scene {
         (!parts.is_empty()).then(|| Shine { two_sided: parts.iter().any(|part| part.two_sided), color: None })
     }
 
-    /// About the mean of the radiance of a primitive over its area.
-    fn mean_radiance(&self, primitive: &Primitive, index: u32) -> Spectrum {
-        /// Along each side, or over longitudes and latitudes.
-        const PLACES: u32 = 8;
+    /// About the mean of the radiance of a primitive over its area, from so many places along each side, or over longitudes and latitudes.
+    fn mean_radiance(&self, primitive: &Primitive, index: u32, places: u32) -> Spectrum {
         let object = &self.objects[self.object_of[index as usize] as usize];
         let mut sum = Spectrum::BLACK;
-        let place = |i: u32| (i as f32 + 0.5) / PLACES as f32;
-        for (x, y) in (0..PLACES).flat_map(|y| (0..PLACES).map(move |x| (place(x), place(y)))) {
+        let place = |i: u32| (i as f32 + 0.5) / places as f32;
+        for (x, y) in (0..places).flat_map(|y| (0..places).map(move |x| (place(x), place(y)))) {
             let Some((point, uv)) = place_on(primitive, Vec2::new(x, y)) else { continue };
             let met =
                 Met { scene: self, object, primitive: index - object.first_primitive, instance: 0, uv, time: 0.0 };
             sum += self.expected_radiance(object.material, &met.textures(&point));
         }
-        sum * (1.0 / (PLACES * PLACES) as f32)
+        sum * (1.0 / (places * places) as f32)
     }
 
     /// What a material sends out at a point in the mean of all chances, on the side that shines.

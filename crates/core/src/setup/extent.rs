@@ -84,10 +84,18 @@ pub(super) fn points(desc: &SceneDesc) -> Vec<Vec3> {
     points
 }
 
-/// The corners of all triangles and of the halves of quads, counter-clockwise seen from where their normals point.
+/// More points or faces of the copies of a mesh are not looked at one by one.
+const MANY: usize = 1 << 20;
+
+/// The corners of all triangles and of the halves of quads, counter-clockwise seen from where their normals point. What is there in very many
+/// copies is no wall, and left out.
 pub(super) fn faces(desc: &SceneDesc) -> impl Iterator<Item = [Vec3; 3]> {
     let of_mesh = |mesh: &'_ MeshDesc| -> Vec<Affine3A> {
-        if mesh.instances.is_empty() { vec![Affine3A::IDENTITY] } else { mesh.copies().collect() }
+        match mesh.instances.len() {
+            0 => vec![Affine3A::IDENTITY],
+            copies if copies.saturating_mul(mesh.triangle_count()) > MANY => Vec::new(),
+            _ => mesh.copies().collect(),
+        }
     };
     let meshes = desc.shape.mesh.iter().flat_map(move |mesh| {
         let copies = of_mesh(mesh);
@@ -109,7 +117,6 @@ pub(super) fn faces(desc: &SceneDesc) -> impl Iterator<Item = [Vec3; 3]> {
 
 /// Those of a mesh, or of its copies; if these have many, of the boxes around them.
 fn push_mesh(points: &mut Vec<Vec3>, mesh: &MeshDesc) {
-    const MANY: usize = 1 << 20;
     let mut vertices: Vec<_> = mesh.vertices().iter().map(|&v| Vec3::from(v)).collect();
     if mesh.instances.is_empty() {
         points.append(&mut vertices);

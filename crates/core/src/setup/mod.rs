@@ -76,6 +76,10 @@ impl Setup {
     /// Adds to a model what it lacks.
     pub fn complete(&self, desc: &mut SceneDesc, given: Given) -> Assumed {
         let mut assumed = Assumed::default();
+        let is_as_given = self.surroundings == Surroundings::Auto && !self.own_camera && self.ground.is_none();
+        if given == Given::ALL && is_as_given {
+            return assumed;
+        }
         let points = extent::points(desc);
         let Some(extent) = Extent::of(&points) else { return assumed };
         let faces: Vec<_> = extent::faces(desc).collect();

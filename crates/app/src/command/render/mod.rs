@@ -5,7 +5,9 @@ mod hash;
 mod session;
 mod stats;
 
+use std::panic::resume_unwind;
 use std::path::{Path, PathBuf};
+use std::thread;
 use std::time::Instant;
 
 use eyebeam_core::desc::SceneDesc;
@@ -114,7 +116,8 @@ impl<'a> Job<'a> {
         let mut settings = Settings::from(&desc.render);
         settings.threads = args.threads.unwrap_or(settings.threads);
         settings.film.variance = aovs.contains(&Aov::Variance);
-        let (hash, names) = (hash::scene_hash(&desc), aov::names(&desc, &aovs));
+        // The hash is found while the scene is built.
+        let (hash, names) = (String::new(), aov::names(&desc, &aovs));
         let phases = Phases { load: clock.elapsed().as_secs_f64(), ..Phases::default() };
         let warnings = scene.warnings;
         let job = Self { args, file, desc, turntable, warnings, hash, settings, aovs, names, phases };
@@ -140,7 +143,13 @@ impl<'a> Job<'a> {
     /// Prepares the scene for rays. It has what it needs of shapes then.
     pub(super) fn build(&mut self) -> Result<Scene, Error> {
         let clock = Instant::now();
-        let scene = Scene::build(&self.desc).map_err(|mut problems| Error::Scene(problems.remove(0)))?;
+        let desc = &self.desc;
+        let (scene, hash) = thread::scope(|scope| {
+            let hash = scope.spawn(|| hash::scene_hash(desc));
+            (Scene::build(desc), hash.join())
+        });
+        let scene = scene.map_err(|mut problems| Error::Scene(problems.remove(0)))?;
+        self.hash = hash.unwrap_or_else(|panic| resume_unwind(panic));
         self.desc.shape = Default::default();
         self.desc.texture.clear();
         self.desc.material.clear();
