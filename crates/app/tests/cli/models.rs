@@ -49,6 +49,35 @@ fn a_mesh_alone_is_a_picture() {
 }
 
 #[test]
+fn surroundings_and_ground_are_chosen() {
+    let place = Place::new();
+    place.write("box.ply", BOX);
+    place.run("render scene.toml -q -o around.exr -r 8x4 --spp 1").ends_with(0);
+    place.run("render scene.toml -q -o around.png -r 8x4 --spp 1").ends_with(0);
+    let mut pictures = Vec::new();
+    for (options, made_up) in [
+        ("", "a camera in front, a studio, a ground"),
+        ("--no-ground", "a camera in front, a studio"),
+        ("--env sky", "a camera in front, a sky, a ground"),
+        ("--env sky --no-ground", "a camera in front, a sky"),
+        ("--env around.exr", "a camera in front"),
+        ("--env around.png --ground", "a camera in front, a ground"),
+    ] {
+        let run =
+            place.run(&format!("render box.ply -o box.png -r 32x24 --spp 2 --progress none {options}")).ends_with(0);
+        assert!(run.stderr.contains(&format!("made up: {made_up}\n")), "{options}: {}", run.stderr);
+        pictures.push(read_png(&place.read("box.png")).2);
+    }
+    let count = pictures.len();
+    pictures.sort();
+    pictures.dedup();
+    assert_eq!(pictures.len(), count, "each is another one");
+    place.run("render box.ply --env nowhere.hdr").ends_with(4);
+    let run = place.run("render box.ply --env moon").ends_with(2);
+    assert!(run.stderr.contains("use studio, sky, none, or the name of a picture"), "{}", run.stderr);
+}
+
+#[test]
 fn what_takes_more_memory_than_is_allowed_is_refused_by_name() {
     let place = Place::new();
     let count = 200_000;

@@ -10,7 +10,15 @@ use crate::material::{Dielectric, Mask, MaterialDesc, Mix, Null, Principled};
 use crate::names::Name;
 
 pub(super) fn scenes() -> Vec<KnownScene> {
-    let holes = [hole(), hollow(), shadow(), nothing(), half_and_half(), one_sided([3.0, 0.0]), one_sided([0.5, 1.0])];
+    let holes = [
+        hole(),
+        hollow(),
+        shadow(),
+        nothing(),
+        half_and_half(),
+        one_sided("white furnace, outside of a one-sided ball", 3.0, 0.0),
+        one_sided("white furnace, within a one-sided ball", 0.5, 1.0),
+    ];
     let filled = [0.0, 45.0, 75.0].map(plate).into_iter().chain([overlap(), wet_glass(), principled()]);
     holes.into_iter().chain(filled).collect()
 }
@@ -47,12 +55,12 @@ fn shadow() -> KnownScene {
     KnownScene::new("floor below a sheet with holes", desc, 2, floor_at(3.0 * 0.75)).hidden()
 }
 
-/// A black ball that has an outside only, seen from there and from within.
-fn one_sided([z, expected]: [f32; 2]) -> KnownScene {
+/// A black ball that has an outside only, seen from a place on the z axis.
+fn one_sided(name: &str, z: f32, expected: f64) -> KnownScene {
     let mut desc = empty(WHITE, stare([0.0, 0.0, z], [0.1, 0.2, 0.0]));
     desc.material.insert("black".to_owned(), matte(0.0));
     add_sphere(&mut desc, [0.0; 3], 1.0, "front", MaterialDesc::Mask(Mask::one_sided(Name::new("black"))));
-    KnownScene::new("white furnace, ball without an inside", desc, 2, expected.into())
+    KnownScene::new(name, desc, 2, expected)
 }
 
 /// What is not there is not seen, and casts no shadow.
