@@ -80,14 +80,15 @@ class Glb:
         return self.add("materials", material)
 
     def mesh(self, name: str, parts: Sequence[tuple[Mesh, int]]) -> int:
-        """A mesh of several parts, each of a material."""
+        """A mesh of several parts, each of a material; where that has no picture, coordinates are left out."""
 
         def primitive(mesh: Mesh, material: int) -> dict:
             attributes = {
                 "POSITION": self.numbers(mesh.vertices),
                 "NORMAL": self.numbers([unit(n) for n in mesh.normals]),
-                "TEXCOORD_0": self.numbers([(u, 1 - v) for u, v in mesh.uvs]),
             }
+            if "baseColorTexture" in self.document["materials"][material]["pbrMetallicRoughness"]:
+                attributes["TEXCOORD_0"] = self.numbers([(u, 1 - v) for u, v in mesh.uvs])
             indices = self.numbers([(i,) for triangle in mesh.triangles for i in triangle], USHORT)
             return {"attributes": attributes, "indices": indices, "material": material}
 

@@ -14,21 +14,22 @@ RAIL = 0.016
 
 def box(size: Vector, at: Vector, radius: float = 0.002) -> Mesh:
     """A box with round edges somewhere."""
-    return rounded_box(size, radius).moved(*at)
+    return rounded_box(size, radius, 2).moved(*at)
 
 
-def along(points: list[tuple[float, float, float]], y: float, segments: int = 64) -> Mesh:
+def along(points: list[tuple[float, float, float]], y: float, segments: int = 56) -> Mesh:
     """Turned about an axis along z at this height, from (radius, z, rounding)."""
     return lathe(corners(points, 4), segments).turned("x", 90).moved(0, y, 0)
 
 
 def upright(points: list[tuple[float, float, float]], z: float) -> Mesh:
     """Turned about an upright axis, from (radius, y, rounding)."""
-    return lathe(corners(points, 5), 48).moved(0, 0, z)
+    return lathe(corners(points, 4), 40).moved(0, 0, z)
 
 
 def wood(x: int, y: int) -> tuple[int, int, int]:
     """Grain along the picture's height."""
+    x, y = 2 * x, 2 * y
     bend = 6 * math.sin(0.011 * y + 0.4) + 3 * math.sin(0.031 * y)
     rings = 0.5 + 0.5 * math.sin(0.42 * (x + bend) + 1.5 * math.sin(0.05 * (x - bend)))
     pores = 1 if (x * 7919 + (y // 9) * 104729) % 53 else 0.72
@@ -43,8 +44,8 @@ def boiler() -> Mesh:
 
 def bands() -> Mesh:
     """Rings about the kettle, and the rim of its door."""
-    rings = [torus(0.0332, 0.0014, 64, 10).turned("x", 90).moved(0, 0.098, z) for z in (-0.03, 0.015, 0.06)]
-    return joined([*rings, torus(0.0245, 0.0013, 64, 10).turned("x", 90).moved(0, 0.098, 0.1095)])
+    rings = [torus(0.0332, 0.0014, 56, 8).turned("x", 90).moved(0, 0.098, z) for z in (-0.03, 0.015, 0.06)]
+    return joined([*rings, torus(0.0245, 0.0013, 48, 8).turned("x", 90).moved(0, 0.098, 0.1095)])
 
 
 def door() -> Mesh:
@@ -105,7 +106,7 @@ def wheel() -> tuple[Mesh, Mesh]:
     paint, steel = [], []
     for side in (-1, 1):
         x = 0.034 * side
-        rim = torus(WHEEL - 0.0045, 0.0026, 48, 10).turned("z", 90).moved(x, 0, 0)
+        rim = torus(WHEEL - 0.0045, 0.0026, 40, 8).turned("z", 90).moved(x, 0, 0)
         spokes = []
         for k in range(8):
             a = math.tau * k / 8
@@ -148,7 +149,7 @@ def model() -> bytes:
     black = glb.material("black iron", (0.018, 0.018, 0.02), 0, 0.38)
     brass = glb.material("brass", (0.89, 0.61, 0.26), 1, 0.16)
     steel = glb.material("steel", (0.62, 0.6, 0.58), 1, 0.28)
-    oak = glb.material("oak", (1, 1, 1), 0, 0.6, baseColorTexture=glb.texture(png(128, 384, wood)))
+    oak = glb.material("oak", (1, 1, 1), 0, 0.6, baseColorTexture=glb.texture(png(64, 192, wood)))
     glass = glb.material("glass", (0.97, 0.99, 0.98), 0, 0, KHR_materials_transmission={"transmissionFactor": 1})
     glow = glb.material("lamp", (1, 0.9, 0.7), 0, 0.3, emissiveFactor=[1, 0.72, 0.36], KHR_materials_emissive_strength={"emissiveStrength": 3})
     lens = lathe(corners([(0.0072, 0, 0), (0.0072, 0.002, 0.001), (0.004, 0.0045, 0.002), (0, 0.005, 0)], 4), 40)

@@ -2,10 +2,12 @@
 
 use std::fmt;
 
+use serde::Serialize;
+
 use crate::error::{Diagnostic, Place, fmt_report};
 
 /// Something that was not kept as it is in a file, or that has no effect in a scene; the rest is fine.
-#[derive(Clone, Debug, PartialEq, Eq)]
+#[derive(Clone, Debug, PartialEq, Eq, Serialize)]
 pub struct Warning {
     /// What, and what came of it.
     pub message: String,

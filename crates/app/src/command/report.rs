@@ -35,45 +35,25 @@ impl Talk {
 /// The most lines that are said if nobody asks for more.
 const SHORT: usize = 5;
 
-/// Warnings that say the same, once.
+/// Warnings that say the same, once; for programs, too.
 #[derive(Clone, Debug, Serialize)]
 pub(super) struct Told<'w> {
     #[serde(flatten)]
-    warning: Said<'w>,
+    warning: &'w Warning,
     /// How often it was met.
     count: usize,
-}
-
-/// A warning for programs.
-#[derive(Clone, Debug, Serialize)]
-struct Said<'w> {
-    message: &'w str,
-    place: Option<At<'w>>,
-    hint: Option<&'w str>,
-    #[serde(skip)]
-    whole: &'w Warning,
-}
-
-/// A place in a text.
-#[derive(Clone, Copy, Debug, Serialize)]
-struct At<'w> {
-    file: &'w str,
-    line: usize,
-    column: usize,
 }
 
 /// Each warning once, in the order in which they were met.
 pub(super) fn told(warnings: &[Warning]) -> Vec<Told<'_>> {
     let mut known = BTreeMap::new();
     let mut told: Vec<Told<'_>> = Vec::new();
-    for whole @ Warning { message, place, hint } in warnings {
+    for warning @ Warning { message, place, hint } in warnings {
         let index = *known.entry((message, place, hint)).or_insert(told.len());
-        if let Some(same) = told.get_mut(index) {
-            same.count += 1;
-            continue;
+        match told.get_mut(index) {
+            Some(same) => same.count += 1,
+            None => told.push(Told { warning, count: 1 }),
         }
-        let place = place.as_ref().map(|Place { file, line, column }| At { file, line: *line, column: *column });
-        told.push(Told { warning: Said { message, place, hint: hint.as_deref(), whole }, count: 1 });
     }
     told
 }
@@ -81,14 +61,15 @@ pub(super) fn told(warnings: &[Warning]) -> Vec<Told<'_>> {
 impl Told<'_> {
     /// With its place and its hint.
     pub(super) fn whole(&self) -> String {
-        let Warning { message, .. } = self.warning.whole;
-        Warning { message: format!("{message}{}", self.times()), ..self.warning.whole.clone() }.to_string()
+        let message = format!("{}{}", self.warning.message, self.times());
+        Warning { message, ..self.warning.clone() }.to_string()
     }
 
     /// In one line, without the hint.
     pub(super) fn line(&self) -> String {
-        let Said { message, place, .. } = self.warning;
-        let place = place.map(|At { file, line, column }| format!("{file}:{line}:{column}: ")).unwrap_or_default();
+        let Warning { message, place, .. } = self.warning;
+        let at = |Place { file, line, column }: &Place| format!("{file}:{line}:{column}: ");
+        let place = place.as_ref().map(at).unwrap_or_default();
         visible(&format!("{place}{message}{}", self.times()))
     }
 

@@ -12,10 +12,11 @@ mod trig;
 
 pub use frame::Frame;
 pub(crate) use half::half_to_f32;
-pub(crate) use hash::{BELOW_ONE, GAMMA, mix, unit};
+pub use hash::mix;
+pub(crate) use hash::{BELOW_ONE, GAMMA, unit};
 pub use offset::clearance;
 pub(crate) use pose::Pose;
 pub use reflect::{reflect, reflect_at, refract};
 pub use renormalize::renormalize;
 pub(crate) use steps::{interpolate, place};
-pub use trig::{sin_cos_eighth, sin_cos_turns};
+pub use trig::{sin_cos_degrees, sin_cos_eighth, sin_cos_turns};

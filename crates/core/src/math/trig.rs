@@ -19,6 +19,13 @@ pub fn sin_cos_turns(u: f32) -> (f32, f32) {
     }
 }
 
+/// The sine and the cosine of an angle of any size, degrees.
+#[inline]
+pub fn sin_cos_degrees(degrees: f32) -> (f32, f32) {
+    let turns = degrees / 360.0;
+    sin_cos_turns(turns - turns.floor())
+}
+
 /// (sin 2πu, cos 2πu) for u in -1/8..=1/8.
 #[inline]
 pub fn sin_cos_eighth(u: f32) -> (f32, f32) {

@@ -83,7 +83,7 @@ impl Setup {
         let points = extent::points(desc);
         let Some(extent) = Extent::of(&points) else { return assumed };
         let faces: Vec<_> = extent::faces(desc).collect();
-        let room = Room::find(faces.iter().copied(), &extent);
+        let room = Room::find(&faces, &extent);
         if self.own_camera || !given.camera {
             let aspect = desc.render.width as f32 / desc.render.height.max(1) as f32;
             let (camera, what) = match &room {

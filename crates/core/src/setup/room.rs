@@ -26,7 +26,7 @@ pub(super) struct Room {
 
 impl Room {
     /// None if what there is, is seen from outside.
-    pub(super) fn find(faces: impl Iterator<Item = [Vec3; 3]>, extent: &Extent) -> Option<Self> {
+    pub(super) fn find(faces: &[[Vec3; 3]], extent: &Extent) -> Option<Self> {
         /// So near to a side, in lengths of the box across it, is what belongs to it.
         const NEAR: f32 = 0.08;
         /// The least part of a side that a wall with its doors and windows covers.
@@ -35,7 +35,7 @@ impl Room {
         const OUTSIDE: f32 = 0.5;
         let size = extent.max - extent.min;
         let (mut inwards, mut outwards) = ([0.0; 6], [0.0; 6]);
-        for [a, b, c] in faces {
+        for &[a, b, c] in faces {
             let area = 0.5 * (b - a).cross(c - a);
             let middle = (a + b + c) / 3.0;
             for (side, out) in SIDES.iter().enumerate() {
@@ -149,7 +149,7 @@ mod tests {
     }
 
     fn room(desc: &SceneDesc) -> Option<Room> {
-        Room::find(faces(desc), &Extent::of(&points(desc)).unwrap())
+        Room::find(&faces(desc).collect::<Vec<_>>(), &Extent::of(&points(desc)).unwrap())
     }
 
     #[test]
@@ -173,7 +173,7 @@ mod tests {
         let eye = |desc: &SceneDesc| {
             let (points, faces): (_, Vec<_>) = (points(desc), faces(desc).collect());
             let extent = Extent::of(&points).unwrap();
-            let room = Room::find(faces.iter().copied(), &extent).unwrap();
+            let room = Room::find(&faces, &extent).unwrap();
             let camera = room.eye(&points, &faces, &extent, 1.5);
             (Vec3::from(camera.look_from), Vec3::from(camera.look_at), extent)
         };

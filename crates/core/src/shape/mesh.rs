@@ -13,6 +13,7 @@
 //! ```
 
 use std::array;
+use std::fmt::Debug;
 use std::sync::Arc;
 
 use eyebeam_bvh::{Primitive, Triangle};
@@ -197,21 +198,27 @@ struct Mesh<'a> {
 }
 
 impl MeshDesc {
+    /// What the file says, once it is loaded; else what is said here.
     fn mesh(&self) -> Mesh<'_> {
         match self.data.as_deref() {
             Some(MeshData { vertices, triangles, normals, uvs, uvs_1, tangents, colors, alphas }) => {
                 Mesh { vertices, triangles, normals, uvs, uvs_1, tangents, colors, alphas }
             }
-            None => Mesh {
-                vertices: &self.vertices,
-                triangles: &self.triangles,
-                normals: &self.normals,
-                uvs: &self.uvs,
-                uvs_1: &self.uvs_1,
-                tangents: &self.tangents,
-                colors: &self.colors,
-                alphas: &self.alphas,
-            },
+            None => self.own(),
+        }
+    }
+
+    /// What is said here.
+    fn own(&self) -> Mesh<'_> {
+        Mesh {
+            vertices: &self.vertices,
+            triangles: &self.triangles,
+            normals: &self.normals,
+            uvs: &self.uvs,
+            uvs_1: &self.uvs_1,
+            tangents: &self.tangents,
+            colors: &self.colors,
+            alphas: &self.alphas,
         }
     }
 
@@ -257,13 +264,7 @@ impl MeshDesc {
     }
 
     fn check_instances(&self, c: &mut Checker) {
-        c.within("instances", |c| {
-            for (i, rows) in
-                self.instances.iter().enumerate().filter(|(_, rows)| !rows.iter().copied().all(Checker::is_finite))
-            {
-                c.problem(i, format!("copy {i} is at {rows:?}"), Some("use finite numbers".to_owned()));
-            }
-        });
+        check_each(c, "instances", &self.instances, is_finite, ["copy", "is"], FINITE);
         if !self.instances.is_empty() && !self.motion.is_empty() {
             let hint = "move one mesh, or give its copies as meshes of their own".to_owned();
             c.problem("motion", "a mesh with `instances` cannot move", Some(hint));
@@ -286,58 +287,36 @@ impl<'a> Mesh<'a> {
         self.triangles.iter().filter_map(move |&[a, b, c]| Some([vertex(a)?, vertex(b)?, vertex(c)?]))
     }
 
-    fn check(&self, c: &mut Checker) {
-        let is_finite = |v: &[f32]| v.iter().copied().all(Checker::is_finite);
-        c.within("vertices", |c| {
-            for (i, vertex) in self.vertices.iter().enumerate().filter(|(_, v)| !is_finite(*v)) {
-                let hint = "numbers up to 1e15 in size are allowed".to_owned();
-                c.problem(i, format!("vertex {i} is {vertex:?}"), Some(hint));
-            }
-        });
-        let count = self.vertices.len();
-        let lists = [
+    /// The lists that have something for each vertex, by their keys, with their lengths.
+    fn of_vertices(&self) -> [(&'static str, usize); 6] {
+        [
             ("normals", self.normals.len()),
             ("uvs", self.uvs.len()),
             ("uvs_1", self.uvs_1.len()),
             ("tangents", self.tangents.len()),
             ("colors", self.colors.len()),
             ("alphas", self.alphas.len()),
-        ];
-        for (key, given) in lists {
+        ]
+    }
+
+    fn check(&self, c: &mut Checker) {
+        let count = self.vertices.len();
+        check_each(c, "vertices", self.vertices, is_finite, ["vertex", "is"], "numbers up to 1e15 in size are allowed");
+        for (key, given) in self.of_vertices() {
             if given != 0 && given != count {
                 let message = format!("there are {given} {key} for {count} vertices");
                 c.problem(key, message, Some("give one for each vertex, or none".to_owned()));
             }
         }
         for (key, uvs) in [("uvs", self.uvs), ("uvs_1", self.uvs_1)] {
-            c.within(key, |c| {
-                for (i, uv) in uvs.iter().enumerate().filter(|(_, uv)| !is_finite(*uv)) {
-                    c.problem(i, format!("coordinates {i} are {uv:?}"), Some("use finite numbers".to_owned()));
-                }
-            });
+            check_each(c, key, uvs, is_finite, ["coordinates", "are"], FINITE);
         }
-        c.within("tangents", |c| {
-            for (i, tangent) in self.tangents.iter().enumerate().filter(|(_, t)| !is_finite(*t)) {
-                c.problem(i, format!("tangent {i} is {tangent:?}"), Some("use finite numbers".to_owned()));
-            }
-        });
-        c.within("colors", |c| {
-            let is_color = |v: &[f32]| is_finite(v) && v.iter().all(|&c| c >= 0.0);
-            for (i, color) in self.colors.iter().enumerate().filter(|(_, color)| !is_color(*color)) {
-                let hint = "use finite numbers that are not negative".to_owned();
-                c.problem(i, format!("color {i} is {color:?}"), Some(hint));
-            }
-        });
-        c.within("alphas", |c| {
-            for (i, alpha) in self.alphas.iter().enumerate().filter(|(_, alpha)| !(0.0..=1.0).contains(*alpha)) {
-                c.problem(i, format!("alpha {i} is {alpha}"), Some("use numbers from 0 to 1".to_owned()));
-            }
-        });
-        c.within("normals", |c| {
-            for (i, normal) in self.normals.iter().enumerate().filter(|(_, n)| !is_finite(*n)) {
-                c.problem(i, format!("normal {i} is {normal:?}"), Some("use finite numbers".to_owned()));
-            }
-        });
+        check_each(c, "tangents", self.tangents, is_finite, ["tangent", "is"], FINITE);
+        let is_color = |color: &[f32; 3]| is_finite(color) && color.iter().all(|&c| c >= 0.0);
+        check_each(c, "colors", self.colors, is_color, ["color", "is"], "use finite numbers that are not negative");
+        let is_share = |alpha: &f32| (0.0..=1.0).contains(alpha);
+        check_each(c, "alphas", self.alphas, is_share, ["alpha", "is"], "use numbers from 0 to 1");
+        check_each(c, "normals", self.normals, is_finite, ["normal", "is"], FINITE);
         c.within("triangles", |c| {
             for (i, triangle) in self.triangles.iter().enumerate() {
                 if let Some(missing) = triangle.iter().find(|&&v| v as usize >= count) {
@@ -349,19 +328,33 @@ impl<'a> Mesh<'a> {
     }
 }
 
+const FINITE: &str = "use finite numbers";
+
+fn is_finite<const N: usize>(numbers: &[f32; N]) -> bool {
+    numbers.iter().copied().all(Checker::is_finite)
+}
+
+/// Notes each item of a list that is not right; the words stand before and behind its number.
+fn check_each<T: Debug>(
+    c: &mut Checker,
+    key: &'static str,
+    list: &[T],
+    is_right: impl Fn(&T) -> bool,
+    [what, is]: [&str; 2],
+    hint: &str,
+) {
+    c.within(key, |c| {
+        for (i, item) in list.iter().enumerate().filter(|(_, item)| !is_right(item)) {
+            c.problem(i, format!("{what} {i} {is} {item:?}"), Some(hint.to_owned()));
+        }
+    });
+}
+
 impl ShapeDesc for MeshDesc {
     fn check(&self, c: &mut Checker) {
-        let lists = [
-            ("vertices", self.vertices.is_empty()),
-            ("triangles", self.triangles.is_empty()),
-            ("normals", self.normals.is_empty()),
-            ("uvs", self.uvs.is_empty()),
-            ("uvs_1", self.uvs_1.is_empty()),
-            ("tangents", self.tangents.is_empty()),
-            ("colors", self.colors.is_empty()),
-            ("alphas", self.alphas.is_empty()),
-        ];
-        let list = lists.iter().find(|(_, is_empty)| !is_empty).map(|(name, _)| name);
+        let own = self.own();
+        let lists = [("vertices", own.vertices.len()), ("triangles", own.triangles.len())];
+        let list = lists.into_iter().chain(own.of_vertices()).find(|&(_, length)| length > 0).map(|(name, _)| name);
         match (&self.file, list) {
             (None, None) if self.data.is_none() => {
                 let hint = "give the mesh `vertices` and `triangles`, or a `file`".to_owned();
@@ -401,7 +394,8 @@ impl ShapeDesc for MeshDesc {
     }
 
     fn vertex_data(&self) -> Option<VertexData> {
-        let Mesh { triangles, uvs, uvs_1, tangents, colors, alphas, .. } = self.mesh();
+        let mesh = self.mesh();
+        let Mesh { triangles, uvs, uvs_1, tangents, colors, alphas, .. } = mesh;
         let data = || VertexData {
             triangles: triangles.into(),
             uvs: uvs.into(),
@@ -410,8 +404,7 @@ impl ShapeDesc for MeshDesc {
             colors: colors.into(),
             alphas: alphas.into(),
         };
-        let has_any =
-            !uvs.is_empty() || !uvs_1.is_empty() || !tangents.is_empty() || !colors.is_empty() || !alphas.is_empty();
+        let has_any = mesh.of_vertices().iter().any(|&(key, length)| key != "normals" && length > 0);
         has_any.then(data)
     }
 }

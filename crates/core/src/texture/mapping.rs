@@ -5,7 +5,7 @@ use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 use crate::array::array;
-use crate::math::sin_cos_turns;
+use crate::math::sin_cos_degrees;
 use crate::texture::TexturePoint;
 use crate::validate::Checker;
 
@@ -102,8 +102,7 @@ fn turned(p: Vec3, degrees: f32) -> Vec3 {
     if degrees == 0.0 {
         return p;
     }
-    let turns = degrees / 360.0;
-    let (sin, cos) = sin_cos_turns(turns - turns.floor());
+    let (sin, cos) = sin_cos_degrees(degrees);
     Vec3::new(cos * p.x - sin * p.y, sin * p.x + cos * p.y, p.z)
 }
 

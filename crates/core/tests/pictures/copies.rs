@@ -21,18 +21,6 @@ const PLACES: [[f32; 12]; 3] = [
     [-1.0, 0.0, 0.0, 1.0, 0.0, 1.0, 0.0, 0.2, 0.0, 0.0, 1.0, -0.5],
 ];
 
-/// A round-looking, textured tile.
-fn tile() -> MeshDesc {
-    MeshDesc {
-        vertices: vec![[-0.4, 0.1, 1.0], [0.4, 0.1, 1.0], [0.4, 0.9, 1.0], [-0.4, 0.9, 1.0]],
-        triangles: vec![[0, 1, 2], [0, 2, 3]],
-        normals: vec![[-1.0, -1.0, 4.0], [1.0, -1.0, 4.0], [1.0, 1.0, 4.0], [-1.0, 1.0, 4.0]],
-        uvs: vec![[0.0, 0.0], [1.0, 0.0], [1.0, 1.0], [0.0, 1.0]],
-        material: Some("checked".to_owned()),
-        ..MeshDesc::default()
-    }
-}
-
 fn with(meshes: Vec<MeshDesc>) -> SceneDesc {
     let mut desc = scene(WHITE, matte(0.6), look([0.5, 1.5, 5.0], [0.0, 0.5, 0.0], 45.0));
     let mapping = Mapping { space: Some(Space::Uv), scale: [8.0, 4.0, 1.0], ..Mapping::default() };

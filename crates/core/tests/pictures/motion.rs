@@ -15,7 +15,7 @@ use eyebeam_core::names::Name;
 use eyebeam_core::render::{Monitor, Render, Settings};
 use eyebeam_core::sampler::SamplerKind;
 use eyebeam_core::scene::{Acceleration, BuildOptions, Scene};
-use eyebeam_core::shape::{MeshDesc, QuadDesc, SphereDesc};
+use eyebeam_core::shape::{QuadDesc, SphereDesc};
 use eyebeam_core::testing::z_test_films;
 use eyebeam_core::texture::{Checker, Color, Gradient, Mapping, Space, TextureDesc};
 use glam::{Vec2, Vec3};
@@ -36,18 +36,6 @@ fn eye(time: f32, look_from: [f32; 3]) -> CameraKey {
 
 fn named(shape: SphereDesc, material: &str) -> SphereDesc {
     SphereDesc { material: Some(material.to_owned()), ..shape }
-}
-
-/// A square with a round look.
-fn tile() -> MeshDesc {
-    MeshDesc {
-        vertices: vec![[-0.4, 0.1, 1.0], [0.4, 0.1, 1.0], [0.4, 0.9, 1.0], [-0.4, 0.9, 1.0]],
-        triangles: vec![[0, 1, 2], [0, 2, 3]],
-        normals: vec![[-1.0, -1.0, 4.0], [1.0, -1.0, 4.0], [1.0, 1.0, 4.0], [-1.0, 1.0, 4.0]],
-        uvs: vec![[0.0, 0.0], [1.0, 0.0], [1.0, 1.0], [0.0, 1.0]],
-        material: Some("checked".to_owned()),
-        ..MeshDesc::default()
-    }
 }
 
 /// Balls, of which one is of glass and one shines, a tile, and a bar, on a floor; all with a texture that lies on them, a lamp

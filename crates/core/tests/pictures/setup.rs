@@ -131,3 +131,15 @@ pub(crate) fn assert_everywhere(film: &Film, expected: f32, error: f32, name: &s
         }
     }
 }
+
+/// A square with a round look, of the material `checked`.
+pub(crate) fn tile() -> MeshDesc {
+    MeshDesc {
+        vertices: vec![[-0.4, 0.1, 1.0], [0.4, 0.1, 1.0], [0.4, 0.9, 1.0], [-0.4, 0.9, 1.0]],
+        triangles: vec![[0, 1, 2], [0, 2, 3]],
+        normals: vec![[-1.0, -1.0, 4.0], [1.0, -1.0, 4.0], [1.0, 1.0, 4.0], [-1.0, 1.0, 4.0]],
+        uvs: vec![[0.0, 0.0], [1.0, 0.0], [1.0, 1.0], [0.0, 1.0]],
+        material: Some("checked".to_owned()),
+        ..MeshDesc::default()
+    }
+}

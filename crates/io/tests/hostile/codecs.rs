@@ -7,7 +7,7 @@ use image::ExtendedColorType;
 use image::codecs::webp::WebPEncoder;
 use serde_json::{Value, json};
 
-use crate::samples;
+use crate::glb::glb;
 
 /// A strip of triangles that Draco has compressed: as a walk over its edges, or one after the other.
 pub(crate) fn draco(method: i32) -> Vec<u8> {
@@ -29,7 +29,7 @@ pub(crate) fn draco(method: i32) -> Vec<u8> {
     encoder.set_mesh(mesh);
     encoder.encode(&options, &mut code).unwrap();
     let code = code.data();
-    samples::glb(&document(code.len(), TRIANGLES), code)
+    glb(&document(code.len(), TRIANGLES), code)
 }
 
 fn document(length: usize, triangles: u32) -> Value {

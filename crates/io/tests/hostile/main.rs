@@ -5,6 +5,8 @@ mod codecs;
 #[path = "../shared/corpus.rs"]
 mod corpus;
 mod damage;
+#[path = "../shared/glb.rs"]
+mod glb;
 mod memory;
 mod names;
 mod samples;

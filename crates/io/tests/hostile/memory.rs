@@ -5,8 +5,9 @@ use eyebeam_core::film::Image;
 use eyebeam_io::Error;
 use eyebeam_io::image::{Encoding, ImageFormat};
 use eyebeam_io::scene::{Files, ReadOptions, read_bytes};
-use serde_json::{Value, json};
+use serde_json::json;
 
+use crate::glb::glb;
 use crate::{alone, read_as, samples, watched};
 
 /// What may be allocated for a file that is refused: so much for each byte, as for JSON that is all empty objects, and some.
@@ -21,15 +22,6 @@ fn refused(name: &str, bytes: &[u8]) -> String {
     let most = IN_ANY_CASE + FOR_EACH_BYTE * bytes.len();
     assert!(peak <= most, "{name} of {} bytes takes {} KiB: {error}", bytes.len(), peak >> 10);
     error
-}
-
-/// A document with other values, by JSON pointers.
-fn with(changes: &[(&str, Value)]) -> Vec<u8> {
-    let mut document = samples::document();
-    for (pointer, value) in changes {
-        *document.pointer_mut(pointer).unwrap() = value.clone();
-    }
-    samples::glb(&document, &samples::numbers())
 }
 
 #[test]
@@ -51,7 +43,7 @@ fn numbers_that_are_not_there() {
         (vec![("/bufferViews/5/extensions/EXT_meshopt_compression/count", json!(u64::MAX))], "buffer view 5"),
         (vec![("/buffers/0/byteLength", json!(u64::MAX))], "buffer 0 has"),
     ] {
-        let error = refused("model.glb", &with(&changes));
+        let error = refused("model.glb", &samples::changed(&changes));
         assert!(error.contains(said), "{error}\nnot: {said}");
     }
 }
@@ -72,13 +64,13 @@ fn a_model_that_is_larger_than_its_file() {
         "bufferViews": [{ "buffer": 0, "byteLength": 12 * count }],
         "buffers": [{ "byteLength": 12 * count }],
     });
-    let error = refused("model.glb", &samples::glb(&document, &vec![0; 12 * count]));
+    let error = refused("model.glb", &glb(&document, &vec![0; 12 * count]));
     assert!(error.contains("triangles, more than 100000000"), "{error}");
     let mut shared = document.clone();
     shared["meshes"][0]["primitives"] = vec![json!({ "attributes": { "POSITION": 0 }, "indices": 0 }); count].into();
     shared["nodes"] = json!([{ "mesh": 0 }]);
     shared["scenes"][0]["nodes"] = json!([0]);
-    let error = refused("model.glb", &samples::glb(&shared, &vec![0; 12 * count]));
+    let error = refused("model.glb", &glb(&shared, &vec![0; 12 * count]));
     assert!(error.contains("more than"), "{error}");
 }
 
@@ -89,7 +81,7 @@ fn bytes_that_are_decoded_again_and_again() {
     let view = samples::document()["bufferViews"][5].clone();
     let mut views = samples::document()["bufferViews"].as_array().unwrap().clone();
     views.extend(vec![view; 1000]);
-    let error = refused("model.glb", &with(&[("/bufferViews", views.into())]));
+    let error = refused("model.glb", &samples::changed(&[("/bufferViews", views.into())]));
     assert!(error.contains("compressed buffer views overlap"), "{error}");
 }
 
@@ -234,7 +226,7 @@ fn no_more_than_is_allowed() {
         ("model.obj", obj.into_bytes()),
         ("mesh.stl", stl.into_bytes()),
         ("mesh.ply", ply.into_bytes()),
-        ("model.glb", samples::glb(&document, &numbers)),
+        ("model.glb", glb(&document, &numbers)),
     ];
     for (name, bytes) in models {
         let read = |memory| {

@@ -4,7 +4,7 @@ use std::fs;
 use std::path::Path;
 
 use eyebeam_io::scene::{Files, ReadOptions, read, read_bytes};
-use serde_json::{Value, json};
+use serde_json::json;
 use tempfile::TempDir;
 
 use crate::{alone, samples, watched};
@@ -45,14 +45,6 @@ fn said(folder: &TempDir, name: &str) -> String {
     text.replace(&folder.path().display().to_string(), "FOLDER")
 }
 
-fn model(changes: &[(&str, Value)]) -> Vec<u8> {
-    let mut document = samples::document();
-    for (pointer, value) in changes {
-        *document.pointer_mut(pointer).unwrap() = value.clone();
-    }
-    samples::glb(&document, &samples::numbers())
-}
-
 #[test]
 fn nothing_outside_its_folder() {
     let _alone = alone();
@@ -63,9 +55,9 @@ fn nothing_outside_its_folder() {
                 ["leads out of the folder", "No such file", "it is not a file"].iter().any(|why| text.contains(why));
             assert!(is_named && is_refused && !text.contains("root:"), "{name}: {text}");
         };
-        let buffer = model(&[("/buffers/0", json!({ "uri": name, "byteLength": 92 }))]);
+        let buffer = samples::changed(&[("/buffers/0", json!({ "uri": name, "byteLength": 92 }))]);
         refused(said(&folder(&[("a.glb", &buffer)]), "a.glb"));
-        let picture = model(&[("/images/0/uri", json!(name))]);
+        let picture = samples::changed(&[("/images/0/uri", json!(name))]);
         refused(said(&folder(&[("a.glb", &picture)]), "a.glb"));
         let library = format!("mtllib {name}\nv 0 0 0\nusemtl secret\nf 1 1 1\n");
         refused(said(&folder(&[("a.obj", library.as_bytes())]), "a.obj"));
@@ -85,8 +77,8 @@ fn nothing_outside_its_folder() {
 fn no_link_that_leads_out() {
     let _alone = alone();
     use std::os::unix::fs::symlink;
-    let buffer = model(&[("/buffers/0", json!({ "uri": "link", "byteLength": 92 }))]);
-    let picture = model(&[("/images/0/uri", json!("link"))]);
+    let buffer = samples::changed(&[("/buffers/0", json!({ "uri": "link", "byteLength": 92 }))]);
+    let picture = samples::changed(&[("/images/0/uri", json!("link"))]);
     let obj = b"mtllib link\nmtllib a.mtl\nv 0 0 0\nusemtl a\nf 1 1 1\n";
     let files: [(&str, &[u8]); 5] = [
         ("buffer.glb", &buffer),
@@ -122,12 +114,14 @@ fn circles_end() {
         (json!([{ "children": [1] }, { "children": [2] }, { "children": [0] }]), "node 0"),
         (json!([{ "children": [1, 1] }, {}]), "node 1"),
     ] {
-        let text =
-            said(&folder(&[("a.glb", &model(&[("/nodes", changes), ("/scenes/0/nodes", json!([0]))]))]), "a.glb");
+        let text = said(
+            &folder(&[("a.glb", &samples::changed(&[("/nodes", changes), ("/scenes/0/nodes", json!([0]))]))]),
+            "a.glb",
+        );
         assert!(text.contains(said_of) && text.contains("within itself"), "{text}");
     }
     let deep: Vec<_> = (1..20_000).map(|i| json!({ "children": [i] })).chain([json!({})]).collect();
-    let text = said(&folder(&[("a.glb", &model(&[("/nodes", deep.into())]))]), "a.glb");
+    let text = said(&folder(&[("a.glb", &samples::changed(&[("/nodes", deep.into())]))]), "a.glb");
     assert!(text.contains("is within more than 1000 others"), "{text}");
     let files: [(&str, &[u8]); 3] = [
         ("a.toml", b"include = [\"b.toml\"]"),
@@ -155,7 +149,7 @@ fn the_same_library_again_and_again() {
 #[test]
 fn files_that_are_given_are_all_there_is() {
     let _alone = alone();
-    let buffer = model(&[("/buffers/0", json!({ "uri": "x/b%20c.bin", "byteLength": 92 }))]);
+    let buffer = samples::changed(&[("/buffers/0", json!({ "uri": "x/b%20c.bin", "byteLength": 92 }))]);
     let mut bytes = samples::numbers();
     let files = |name: &str, bytes: &[u8]| [(name.to_owned(), bytes.to_vec())].into();
     let read = |files: Files<'_>| read_bytes("a.glb", &buffer, files, &ReadOptions::default());

@@ -11,6 +11,7 @@ use eyebeam_io::image::{Encoding, ImageFormat};
 use serde_json::{Value, json};
 
 use crate::codecs;
+use crate::glb::{glb, triangle};
 
 pub(crate) const OBJ: &str = "# a wall\nmtllib a.mtl\nv 0 0 0 1 0 0\nv 1 0 0 0 1 0\nv 1 1 0 0 0 1\nv 0 1 0 1 1 1\nv 0.5 0.2 0\n\
     vt 0 0\nvt 1 0\nvt 1 1\nvt 0 1\nvn 0 0 1\no wall\ng part\nusemtl paint\ns 1\nf 1/1 2/2 3/3 4/4\nf 1//1 2//1 3//1\n\
@@ -205,11 +206,7 @@ const ATTRIBUTES: usize = 1 + 12 * 17 + 32;
 const TRIANGLES: usize = 2 + 16;
 
 pub(crate) fn numbers() -> Vec<u8> {
-    let mut bytes: Vec<u8> = [0_u16, 1, 2, 0].iter().flat_map(|i| i.to_le_bytes()).collect();
-    let floats = [0.0_f32, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0, 2.0, 0.0, 0.0, 1.0, 1.0, 1.0, 0.0, 0.0];
-    bytes.extend(floats.iter().flat_map(|f| f.to_le_bytes()));
-    bytes.extend([0, 0, 0, 0, 0, 0, 0, 0, 1, 0, 0, 0]);
-    bytes.extend([255, 0, 0, 0, 255, 0, 0, 0, 255, 0, 0, 0]);
+    let mut bytes = triangle();
     bytes.push(0xa0);
     for byte in 0..12 {
         // Differences of whole bytes: 0, then 63 and back, for the highest byte of x and y.
@@ -223,13 +220,13 @@ pub(crate) fn numbers() -> Vec<u8> {
     bytes
 }
 
-pub(crate) fn glb(document: &Value, numbers: &[u8]) -> Vec<u8> {
-    let mut json = document.to_string().into_bytes();
-    json.resize(json.len().next_multiple_of(4), b' ');
-    let length = 12 + 8 + json.len() + 8 + numbers.len();
-    let words = |words: &[u32]| words.iter().flat_map(|w| w.to_le_bytes()).collect::<Vec<u8>>();
-    let header = words(&[0x4654_6c67, 2, length as u32, json.len() as u32, 0x4e4f_534a]);
-    [header, json, words(&[numbers.len() as u32, 0x004e_4942]), numbers.to_vec()].concat()
+/// The document with other values, by JSON pointers, as one file.
+pub(crate) fn changed(changes: &[(&str, Value)]) -> Vec<u8> {
+    let mut document = document();
+    for (pointer, value) in changes {
+        *document.pointer_mut(pointer).unwrap() = value.clone();
+    }
+    glb(&document, &numbers())
 }
 
 fn gltf() -> Vec<u8> {

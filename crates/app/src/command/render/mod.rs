@@ -69,6 +69,7 @@ pub(super) struct Job<'a> {
     /// If it is to turn.
     pub(super) turntable: Option<Turntable>,
     warnings: Vec<Warning>,
+    /// Of the scene, once that is built.
     hash: String,
     settings: Settings,
     aovs: Vec<Aov>,
@@ -116,7 +117,6 @@ impl<'a> Job<'a> {
         let mut settings = Settings::from(&desc.render);
         settings.threads = args.threads.unwrap_or(settings.threads);
         settings.film.variance = aovs.contains(&Aov::Variance);
-        // The hash is found while the scene is built.
         let (hash, names) = (String::new(), aov::names(&desc, &aovs));
         let phases = Phases { load: clock.elapsed().as_secs_f64(), ..Phases::default() };
         let warnings = scene.warnings;

@@ -55,7 +55,7 @@ use crate::color::{LUMENS_PER_WATT, Rgb, Spectrum};
 use crate::material::microfacet::Ggx;
 use crate::material::reflected::Boundary;
 use crate::material::{Emission, ThinFilm};
-use crate::math::sin_cos_turns;
+use crate::math::sin_cos_degrees;
 use crate::medium::Filling;
 use crate::names::Named;
 use crate::texture::{Color, Scalar, Textures};
@@ -281,8 +281,7 @@ impl Principled {
         if self.specular_rotation == 0.0 && self.geometry_tangent.is_none() {
             return along_u;
         }
-        let turns = self.specular_rotation / 360.0;
-        let (sin, cos) = sin_cos_turns(turns - turns.floor());
+        let (sin, cos) = sin_cos_degrees(self.specular_rotation);
         let by_texture = self.geometry_tangent.as_ref().and_then(|map| {
             let [x, y, _] = map.share_at(textures).to_rgb();
             (2.0 * Vec2::new(x, y) - 1.0).try_normalize()

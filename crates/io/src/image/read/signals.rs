@@ -5,7 +5,7 @@ use std::io::Cursor;
 use eyebeam_core::texture::{Pixels, Samples};
 use image::codecs::jpeg::JpegDecoder;
 use image::codecs::webp::WebPDecoder;
-use image::{DynamicImage, ImageDecoder};
+use image::{DynamicImage, ImageDecoder, ImageError, ImageResult};
 use png::{BitDepth, Decoder, DecodingError, Limits, Reader, Transformations};
 
 use crate::error::FileError;
@@ -13,8 +13,6 @@ use crate::image::read::pixels::{compact, pixels};
 use crate::image::read::{DEFLATE, check_length, check_size};
 
 type Png<'b> = Reader<Cursor<&'b [u8]>>;
-type Jpeg<'b> = JpegDecoder<Cursor<&'b [u8]>>;
-type WebP<'b> = WebPDecoder<Cursor<&'b [u8]>>;
 
 /// What a PNG may keep beside its pixels.
 const PNG_MEMORY: usize = 256 << 20;
@@ -69,74 +67,68 @@ fn wrong_png(e: DecodingError) -> FileError {
     FileError::new(format!("cannot decode the PNG: {e}"))
 }
 
-/// Of a progressive JPEG: three coefficients, their samples, and the decoded bytes.
-const JPEG_BYTES_PER_PIXEL: u64 = 20;
-/// A block of 64 pixels takes a bit at least.
-const JPEG_PIXELS_IN_BYTE: u64 = 8 * 64;
+/// A kind of picture of 8 bits whose whole decoder is another crate's.
+struct Coded {
+    name: &'static str,
+    /// What decoding takes for a pixel.
+    bytes_per_pixel: u64,
+    /// The most pixels that a byte can stand for.
+    pixels_in_byte: u64,
+}
+
+/// Of a progressive JPEG: three coefficients, their samples, and the decoded bytes. A block of 64 pixels takes a bit at least.
+const JPEG: Coded = Coded { name: "JPEG", bytes_per_pixel: 20, pixels_in_byte: 8 * 64 };
+
+/// Of a WebP: the decoded bytes, twice, and what they are predicted from. Pixels of one colour would take nothing; this is enough for a
+/// large picture of one.
+const WEBP: Coded = Coded { name: "WebP", bytes_per_pixel: 12, pixels_in_byte: 1 << 16 };
+
+impl Coded {
+    fn wrong(&self, e: &ImageError) -> FileError {
+        FileError::new(format!("cannot decode the {}: {e}", self.name))
+    }
+
+    /// With the memory that its pixels take, and so many bytes more for each.
+    fn open<D: ImageDecoder>(&self, decoder: ImageResult<D>, bytes: &[u8], more: u64) -> Result<(D, u64), FileError> {
+        let decoder = decoder.map_err(|e| self.wrong(&e))?;
+        let (width, height) = decoder.dimensions();
+        check_size(width.into(), height.into(), self.bytes_per_pixel + more)?;
+        check_length(bytes, width.into(), height.into(), self.pixels_in_byte)?;
+        let memory = u64::from(width) * u64::from(height) * (u64::from(decoder.color_type().bytes_per_pixel()) + more);
+        Ok((decoder, memory))
+    }
+
+    fn decode<D: ImageDecoder>(&self, decoder: ImageResult<D>, bytes: &[u8], more: u64) -> Result<Pixels, FileError> {
+        let (decoder, _) = self.open(decoder, bytes, more)?;
+        let (width, height) = decoder.dimensions();
+        let (channels, signals) = match DynamicImage::from_decoder(decoder).map_err(|e| self.wrong(&e))? {
+            DynamicImage::ImageLuma8(grey) => (1, grey.into_raw()),
+            DynamicImage::ImageRgba8(color) => (4, color.into_raw()),
+            color => (3, color.into_rgb8().into_raw()),
+        };
+        let (channels, signals) = compact(channels, signals, u8::MAX);
+        pixels([width, height], channels, Samples::Byte(signals))
+    }
+}
 
 /// Refused if the picture, and so many bytes more for each pixel, are more than is allowed.
 pub(super) fn decode_jpeg(bytes: &[u8], more: u64) -> Result<Pixels, FileError> {
-    let (decoder, _) = open_jpeg(bytes, more)?;
-    let (width, height) = decoder.dimensions();
-    let (channels, signals) = match DynamicImage::from_decoder(decoder).map_err(wrong_jpeg)? {
-        DynamicImage::ImageLuma8(grey) => (1, grey.into_raw()),
-        color => (3, color.into_rgb8().into_raw()),
-    };
-    let (channels, signals) = compact(channels, signals, u8::MAX);
-    pixels([width, height], channels, Samples::Byte(signals))
+    JPEG.decode(JpegDecoder::new(Cursor::new(bytes)), bytes, more)
 }
 
 /// The memory that pixels take, by the header alone, and so many bytes more for each.
 pub(super) fn jpeg_size(bytes: &[u8], more: u64) -> Result<u64, FileError> {
-    open_jpeg(bytes, more).map(|(_, memory)| memory)
+    JPEG.open(JpegDecoder::new(Cursor::new(bytes)), bytes, more).map(|(_, memory)| memory)
 }
-
-fn open_jpeg(bytes: &[u8], more: u64) -> Result<(Jpeg<'_>, u64), FileError> {
-    let decoder = JpegDecoder::new(Cursor::new(bytes)).map_err(wrong_jpeg)?;
-    let (width, height) = decoder.dimensions();
-    check_size(width.into(), height.into(), JPEG_BYTES_PER_PIXEL + more)?;
-    check_length(bytes, width.into(), height.into(), JPEG_PIXELS_IN_BYTE)?;
-    let memory = u64::from(width) * u64::from(height) * (u64::from(decoder.color_type().bytes_per_pixel()) + more);
-    Ok((decoder, memory))
-}
-
-fn wrong_jpeg(e: image::ImageError) -> FileError {
-    FileError::new(format!("cannot decode the JPEG: {e}"))
-}
-
-/// Of a WebP: the decoded bytes, twice, and what they are predicted from.
-const WEBP_BYTES_PER_PIXEL: u64 = 12;
-/// Pixels of one colour would take nothing; this is enough for a large picture of one.
-const WEBP_PIXELS_IN_BYTE: u64 = 1 << 16;
 
 /// Refused if the picture, and so many bytes more for each pixel, are more than is allowed.
 pub(super) fn decode_webp(bytes: &[u8], more: u64) -> Result<Pixels, FileError> {
-    let (decoder, _) = open_webp(bytes, more)?;
-    let (width, height) = decoder.dimensions();
-    let (channels, signals) = match DynamicImage::from_decoder(decoder).map_err(wrong_webp)? {
-        DynamicImage::ImageRgba8(color) => (4, color.into_raw()),
-        color => (3, color.into_rgb8().into_raw()),
-    };
-    let (channels, signals) = compact(channels, signals, u8::MAX);
-    pixels([width, height], channels, Samples::Byte(signals))
+    WEBP.decode(WebPDecoder::new(Cursor::new(bytes)), bytes, more)
 }
 
 /// The memory that pixels take, by the header alone, and so many bytes more for each.
 pub(super) fn webp_size(bytes: &[u8], more: u64) -> Result<u64, FileError> {
-    open_webp(bytes, more).map(|(_, memory)| memory)
-}
-
-fn open_webp(bytes: &[u8], more: u64) -> Result<(WebP<'_>, u64), FileError> {
-    let decoder = WebPDecoder::new(Cursor::new(bytes)).map_err(wrong_webp)?;
-    let (width, height) = decoder.dimensions();
-    check_size(width.into(), height.into(), WEBP_BYTES_PER_PIXEL + more)?;
-    check_length(bytes, width.into(), height.into(), WEBP_PIXELS_IN_BYTE)?;
-    let memory = u64::from(width) * u64::from(height) * (u64::from(decoder.color_type().bytes_per_pixel()) + more);
-    Ok((decoder, memory))
-}
-
-fn wrong_webp(e: image::ImageError) -> FileError {
-    FileError::new(format!("cannot decode the WebP: {e}"))
+    WEBP.open(WebPDecoder::new(Cursor::new(bytes)), bytes, more).map(|(_, memory)| memory)
 }
 
 #[cfg(test)]

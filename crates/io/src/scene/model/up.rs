@@ -52,8 +52,11 @@ impl Up {
             return;
         }
         for mesh in desc.shape.mesh.iter_mut().filter_map(|mesh| mesh.data.as_mut()) {
-            let MeshData { vertices, normals, .. } = Arc::make_mut(mesh);
+            let MeshData { vertices, normals, tangents, .. } = Arc::make_mut(mesh);
             vertices.iter_mut().chain(normals).for_each(|v| *v = self.to_y_up(*v));
+            for [x, y, z, _] in tangents {
+                [*x, *y, *z] = self.to_y_up([*x, *y, *z]);
+            }
         }
     }
 }
@@ -70,6 +73,7 @@ impl FromStr for Up {
 
 #[cfg(test)]
 mod tests {
+    use eyebeam_core::shape::MeshDesc;
     use glam::Vec3;
 
     use super::*;
@@ -89,6 +93,19 @@ mod tests {
             assert_eq!(turn(Vec3::X).cross(turn(Vec3::Y)), turn(Vec3::Z), "{name}");
             assert_eq!(name.parse(), Ok(*up));
         }
+        let mut desc = SceneDesc::default();
+        let frame = [[0.0, 0.0, 2.0]];
+        let data = MeshData {
+            vertices: frame.into(),
+            normals: frame.into(),
+            tangents: vec![[0.0, 0.0, 2.0, -1.0]],
+            ..MeshData::default()
+        };
+        desc.shape.mesh.push(MeshDesc { data: Some(Arc::new(data)), ..MeshDesc::default() });
+        Up::Z.turn(&mut desc);
+        let turned = desc.shape.mesh[0].data.as_ref().unwrap();
+        assert_eq!((turned.vertices[0], turned.normals[0]), ([0.0, 2.0, 0.0], [0.0, 2.0, 0.0]));
+        assert_eq!(turned.tangents[0], [0.0, 2.0, 0.0, -1.0]);
         assert_eq!("z".parse(), Ok(Up::Z));
         assert!("W".parse::<Up>().is_err());
     }

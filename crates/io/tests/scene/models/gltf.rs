@@ -12,6 +12,8 @@ use eyebeam_io::scene::{ReadOptions, SceneFile, read, read_with};
 use serde_json::{Value, json};
 use tempfile::TempDir;
 
+use crate::models::glb;
+
 /// A file of one upright triangle, with its numbers behind the JSON: indices at 0, positions at 8, uvs at 44, four joints a vertex at 68,
 /// four weights at 80.
 pub(super) fn triangle() -> Value {
@@ -35,28 +37,8 @@ pub(super) fn triangle() -> Value {
     })
 }
 
-pub(super) fn numbers() -> Vec<u8> {
-    let mut bytes: Vec<u8> = [0_u16, 1, 2, 0].iter().flat_map(|i| i.to_le_bytes()).collect();
-    let floats = [0.0_f32, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0, 2.0, 0.0, 0.0, 1.0, 1.0, 1.0, 0.0, 0.0];
-    bytes.extend(floats.iter().flat_map(|f| f.to_le_bytes()));
-    bytes.extend([0, 0, 0, 0, 0, 0, 0, 0, 1, 0, 0, 0]);
-    bytes.extend([255, 0, 0, 0, 255, 0, 0, 0, 255, 0, 0, 0]);
-    bytes
-}
-
 pub(super) fn glb(document: &Value) -> Vec<u8> {
-    let mut json = document.to_string().into_bytes();
-    json.resize(json.len().next_multiple_of(4), b' ');
-    let numbers = numbers();
-    let length = 12 + 8 + json.len() + 8 + numbers.len();
-    let words = |words: &[u32]| words.iter().flat_map(|w| w.to_le_bytes()).collect::<Vec<u8>>();
-    [
-        words(&[0x4654_6c67, 2, length as u32, json.len() as u32, 0x4e4f_534a]),
-        json,
-        words(&[numbers.len() as u32, 0x004e_4942]),
-        numbers,
-    ]
-    .concat()
+    glb::glb(document, &glb::triangle())
 }
 
 pub(super) fn read_bytes(bytes: &[u8]) -> Result<SceneFile, Error> {

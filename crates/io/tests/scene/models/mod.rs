@@ -3,6 +3,8 @@
 #[path = "../../shared/corpus.rs"]
 mod corpus;
 mod draco;
+#[path = "../../shared/glb.rs"]
+mod glb;
 mod gltf;
 mod gltf_materials;
 mod obj;

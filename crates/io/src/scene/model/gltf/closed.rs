@@ -1,5 +1,6 @@
 //! Whether a mesh has an inside.
 
+use eyebeam_core::math::mix;
 use eyebeam_core::shape::MeshData;
 
 /// Whether each edge is there as often in one direction as in the other, so that nothing is seen from behind but from within: the sum over
@@ -8,10 +9,10 @@ pub(super) fn is_closed(mesh: &MeshData) -> bool {
     let place = |index: u32| -> Option<u64> {
         let vertex = mesh.vertices.get(index as usize)?;
         // −0 is 0.
-        Some(vertex.iter().fold(0, |hash, &c| scramble(hash ^ u64::from((c + 0.0).to_bits()))))
+        Some(vertex.iter().fold(0, |hash, &c| mix(hash ^ u64::from((c + 0.0).to_bits()))))
     };
     let edge = |a: u64, b: u64| {
-        if a < b { scramble(a ^ b.rotate_left(1)) } else { scramble(b ^ a.rotate_left(1)).wrapping_neg() }
+        if a < b { mix(a ^ b.rotate_left(1)) } else { mix(b ^ a.rotate_left(1)).wrapping_neg() }
     };
     let around = |&[a, b, c]: &[u32; 3]| -> Option<u64> {
         let [a, b, c] = [place(a)?, place(b)?, place(c)?];
@@ -19,14 +20,6 @@ pub(super) fn is_closed(mesh: &MeshData) -> bool {
         Some(edges.fold(0, |sum: u64, (a, b)| sum.wrapping_add(edge(a, b))))
     };
     mesh.triangles.iter().filter_map(around).fold(0, u64::wrapping_add) == 0
-}
-
-/// Other bits for each number: the finaliser of SplitMix64 (Steele, Lea & Flood 2014, doi:10.1145/2660193.2660195).
-fn scramble(number: u64) -> u64 {
-    let z = number.wrapping_add(0x9e37_79b9_7f4a_7c15);
-    let z = (z ^ (z >> 30)).wrapping_mul(0xbf58_476d_1ce4_e5b9);
-    let z = (z ^ (z >> 27)).wrapping_mul(0x94d0_49bb_1331_11eb);
-    z ^ (z >> 31)
 }
 
 #[cfg(test)]

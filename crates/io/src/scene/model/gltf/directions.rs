@@ -5,7 +5,7 @@
 
 use eyebeam_core::color::Rgb;
 use eyebeam_core::material::Principled;
-use eyebeam_core::texture::{Channel, Color, Encoding, Interpolation, Mapping, Ramp, Scalar, Stop, TextureDesc};
+use eyebeam_core::texture::{Channel, Color, Encoding, Interpolation, Mapping, Scalar};
 
 use crate::scene::model::gltf::document::Material;
 use crate::scene::model::gltf::extensions::{Anisotropy, Clearcoat, get};
@@ -68,9 +68,8 @@ impl Maker<'_, '_> {
         const STEPS: u16 = 32;
         let values: Vec<_> = (0..=STEPS).map(|i| f32::from(i) / f32::from(STEPS)).map(|at| (at, f(at))).collect();
         let mut ramp = |part: usize, name: &str| {
-            let stops = values.iter().map(|&(at, value)| Stop { at, color: Rgb::grey(value[part]) }).collect();
-            let ramp = Ramp { input: input.clone(), stops, interpolation: Interpolation::Linear };
-            Scalar::Texture(self.texture(name, TextureDesc::Ramp(ramp)))
+            let stops: Vec<_> = values.iter().map(|&(at, value)| (at, value[part])).collect();
+            self.ramp(name, input.clone(), &stops, Interpolation::Linear)
         };
         [ramp(0, "roughness.stretched"), ramp(1, "anisotropy.stretched")]
     }

@@ -185,9 +185,7 @@ impl Maker<'_, '_> {
                     Scalar::Texture(_) if cutoff <= 0.0 => None,
                     input => {
                         let stops = [(0.0, 0.0), (bounded(cutoff, 1e-6, 10.0), 1.0)];
-                        let stops = stops.map(|(at, grey)| Stop { at, color: Rgb::grey(grey) }).into();
-                        let ramp = Ramp { input, stops, interpolation: Interpolation::Constant };
-                        Some(Scalar::Texture(self.texture("cutoff", TextureDesc::Ramp(ramp))))
+                        Some(self.ramp("cutoff", input, &stops, Interpolation::Constant))
                     }
                 }
             }
@@ -273,12 +271,7 @@ impl Maker<'_, '_> {
             let info = film.iridescence_thickness_texture.as_ref();
             p.thin_film_thickness = match self.channel(info, Channel::Green, 1.0, "film-thickness") {
                 Scalar::Number(_) => most.into(),
-                input => {
-                    let stops =
-                        [(0.0, least), (1.0, most)].map(|(at, grey)| Stop { at, color: Rgb::grey(grey) }).into();
-                    let ramp = Ramp { input, stops, interpolation: Interpolation::Linear };
-                    Scalar::Texture(self.texture("film-thickness.ramp", TextureDesc::Ramp(ramp)))
-                }
+                input => self.ramp("film-thickness.ramp", input, &[(0.0, least), (1.0, most)], Interpolation::Linear),
             };
         }
     }
@@ -328,6 +321,18 @@ impl Maker<'_, '_> {
         let name = format!("{}.{part}", self.name);
         self.desc.texture.insert(name.clone(), texture);
         Name::new(&name)
+    }
+
+    /// A function of a number, by its values at some.
+    pub(super) fn ramp(
+        &mut self,
+        part: &str,
+        input: Scalar,
+        stops: &[(f32, f32)],
+        interpolation: Interpolation,
+    ) -> Scalar {
+        let stops = stops.iter().map(|&(at, grey)| Stop { at, color: Rgb::grey(grey) }).collect();
+        Scalar::Texture(self.texture(part, TextureDesc::Ramp(Ramp { input, stops, interpolation })))
     }
 
     pub(super) fn image(&mut self, info: &TextureInfo, encoding: Encoding, alpha: bool, part: &str) -> Option<Name> {
@@ -385,7 +390,7 @@ impl Maker<'_, '_> {
 }
 
 /// A grey as a number.
-fn scalar(color: Color) -> Scalar {
+pub(super) fn scalar(color: Color) -> Scalar {
     match color {
         Color::Rgb(rgb) => Scalar::Number(rgb.0[1]),
         Color::Texture(name) => Scalar::Texture(name),

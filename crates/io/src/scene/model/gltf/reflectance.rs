@@ -5,11 +5,11 @@
 
 use eyebeam_core::color::Rgb;
 use eyebeam_core::material::{MaterialDesc, Mix, Principled};
-use eyebeam_core::texture::{Color, Encoding, Interpolation, Invert, Multiply, Ramp, Scalar, Stop, TextureDesc};
+use eyebeam_core::texture::{Color, Encoding, Interpolation, Invert, Multiply, Scalar, TextureDesc};
 
 use crate::scene::model::gltf::document::TextureInfo;
 use crate::scene::model::gltf::extensions::{Ior, Specular, SpecularGlossiness, Transmission};
-use crate::scene::model::gltf::material::{Maker, bounded};
+use crate::scene::model::gltf::material::{Maker, bounded, scalar};
 
 /// Straight on, of the largest index.
 const MOST: f32 = 0.25;
@@ -94,13 +94,8 @@ impl Maker<'_, '_> {
             let all = self.product("reflectance", color, Rgb::grey(brightest).into());
             let most = Multiply { a: all.clone(), b: Rgb::grey(1.0 / MOST).into() };
             p.specular_color = Color::Texture(self.texture("reflectance.of-most", TextureDesc::Multiply(most)));
-            let stops = [(0.0, 0.0), (MOST, 1.0)].map(|(at, grey)| Stop { at, color: Rgb::grey(grey) }).into();
-            let input = match &all {
-                Color::Rgb(rgb) => Scalar::Number(rgb.0[1]),
-                Color::Texture(name) => Scalar::Texture(name.clone()),
-            };
-            let ramp = Ramp { input, stops, interpolation: Interpolation::Constant };
-            (Scalar::Texture(self.texture("reflectance.metal", TextureDesc::Ramp(ramp))), all)
+            let stops = [(0.0, 0.0), (MOST, 1.0)];
+            (self.ramp("reflectance.metal", scalar(all.clone()), &stops, Interpolation::Constant), all)
         };
         self.mirror = Some(Mirror { share, color });
     }
