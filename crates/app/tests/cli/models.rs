@@ -48,6 +48,38 @@ fn a_mesh_alone_is_a_picture() {
     assert!((24..=41).contains(&rows), "{rows} of 48 rows");
 }
 
+/// Whatever the unit, the picture is the same but for rounding, and so is one of a file whose z is up.
+#[test]
+fn units_and_axes_do_not_matter() {
+    let place = Place::new();
+    let picture = |name: &str, options: &str| {
+        place.run(&format!("render {name} -q -o it.png -r 48x36 --spp 16 {options}")).ends_with(0);
+        read_png(&place.read("it.png")).2
+    };
+    let scaled = |by: f64, turn: fn([f64; 3]) -> [f64; 3]| {
+        let lines = BOX.lines().map(|line| {
+            let numbers: Vec<f64> = line.split(' ').filter_map(|word| word.parse().ok()).collect();
+            match numbers[..] {
+                [x, y, z] if line.split(' ').count() == 3 => {
+                    turn([x, y, z]).map(|c| (c * by).to_string()).join(" ") + "\n"
+                }
+                _ => format!("{line}\n"),
+            }
+        });
+        lines.collect::<String>()
+    };
+    place.write("box.ply", BOX);
+    let expected = picture("box.ply", "");
+    for (by, up) in [(1e-5, "+Y"), (1e5, "+Y"), (1.0, "+Z")] {
+        let turn = if up == "+Z" { |[x, y, z]: [f64; 3]| [x, -z, y] } else { |p: [f64; 3]| p };
+        place.write("other.ply", &scaled(by, turn));
+        let other = picture("other.ply", &format!("--up {up}"));
+        let off = |(a, b): (&u8, &u8)| f64::from(a.abs_diff(*b));
+        let mean = expected.iter().zip(&other).map(off).sum::<f64>() / expected.len() as f64;
+        assert!(mean < 2.0, "{by} {up}: {mean} of 255");
+    }
+}
+
 #[test]
 fn surroundings_and_ground_are_chosen() {
     let place = Place::new();

@@ -121,4 +121,23 @@ mod tests {
             assert!(tight.abs() < 0.01, "{shape:?} {unit} {aspect}: {min} {max}");
         }
     }
+
+    /// A sheet that faces along an axis is seen from where it faces to; one that lies is seen from above.
+    #[test]
+    fn flat_things_are_seen_from_the_front() {
+        for (u, v, n) in [
+            (Vec3::X, Vec3::Y, Vec3::Z),
+            (Vec3::Y, Vec3::X, Vec3::NEG_Z),
+            (Vec3::Y, Vec3::Z, Vec3::X),
+            (Vec3::Z, Vec3::Y, Vec3::NEG_X),
+            (Vec3::Z, Vec3::X, Vec3::Y),
+            (Vec3::X, Vec3::Z, Vec3::Y),
+        ] {
+            let faces = [[Vec3::ZERO, u, v], [u + v, v, u]];
+            let points: Vec<_> = faces.iter().flatten().copied().collect();
+            let camera = in_front(&points, &faces, &Extent::of(&points).unwrap(), 1.5);
+            let back = Vec3::from(camera.look_from) - Vec3::from(camera.look_at);
+            assert!(back.normalize().dot(n) > 0.6, "{n}: {back}");
+        }
+    }
 }
