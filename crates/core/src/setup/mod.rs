@@ -83,17 +83,20 @@ impl Setup {
         let points = extent::points(desc);
         let Some(extent) = Extent::of(&points) else { return assumed };
         let faces: Vec<_> = extent::faces(desc).collect();
-        let room = Room::find(&faces, &extent);
+        let has_lamps = has_lamps(desc);
+        let found = Room::find(&faces, &extent, has_lamps);
         if self.own_camera || !given.camera {
             let aspect = desc.render.width as f32 / desc.render.height.max(1) as f32;
-            let (camera, what) = match &room {
+            let (camera, what) = match &found {
+                Some(room) if room.stands() => (room.eye(&points, &faces, &extent, aspect), "a camera in front"),
                 Some(room) => (room.eye(&points, &faces, &extent, aspect), "a camera in the room"),
                 None => (eye::in_front(&points, &faces, &extent, aspect), "a camera in front"),
             };
             desc.camera = camera;
             assumed.what.push(what);
         }
-        let is_lit = given.light || room.is_some() && (desc.has_lamps() || !desc.light.is_dark());
+        let room = found.filter(|room| !room.stands());
+        let is_lit = given.light || room.is_some() && has_lamps;
         let surroundings = match &self.surroundings {
             Surroundings::Auto if is_lit => &Surroundings::None,
             Surroundings::Auto if room.is_some_and(|room| room.is_closed()) => {
@@ -124,6 +127,11 @@ impl Setup {
         }
         assumed
     }
+}
+
+/// Whether there is light that is not from outside.
+fn has_lamps(desc: &SceneDesc) -> bool {
+    desc.has_lamps() || !desc.light.is_dark()
 }
 
 /// The least and the greatest coordinates of all shapes, metres; none if there are none.

@@ -1,8 +1,11 @@
 //! Rooms: scenes whose outermost surfaces look inwards.
 //!
-//! A wall is a side of the box around everything that is covered, to a good part, by surfaces that face the middle, and hardly by
-//! others. A floor and two walls are a room. If a side is open, the eye looks in from there, as into a doll's house; if none is,
-//! it stands in a corner, where it sees most.
+//! A wall is a side of the box around everything that is covered, to a good part, by surfaces that face the middle. A floor and two
+//! walls are a room. If a side is open, the eye looks in from there, as into a doll's house; if none is, it stands in a corner, where
+//! it sees most.
+//!
+//! Walls that are thick have an outside, too, which may be what is to be seen: of a house, a crate, the housing of a machine. So the eye
+//! stands inside of them only if lamps are in there, and what is open is shown like anything else, but from an open side.
 
 use std::f32::consts::FRAC_1_SQRT_2;
 
@@ -22,16 +25,18 @@ const WALLS: [usize; 4] = [0, 1, 4, 5];
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) struct Room {
     is_wall: [bool; 6],
+    /// Whether walls have an outside.
+    is_thick: bool,
 }
 
 impl Room {
-    /// None if what there is, is seen from outside.
-    pub(super) fn find(faces: &[[Vec3; 3]], extent: &Extent) -> Option<Self> {
+    /// None if what there is, is seen from outside; `is_lit` tells of lamps.
+    pub(super) fn find(faces: &[[Vec3; 3]], extent: &Extent, is_lit: bool) -> Option<Self> {
         /// So near to a side, in lengths of the box across it, is what belongs to it.
         const NEAR: f32 = 0.08;
         /// The least part of a side that a wall with its doors and windows covers.
         const COVERED: f32 = 0.4;
-        /// How much of the outside of a wall there may be for each part of its inside.
+        /// How much of the outside of a thin wall there may be for each part of its inside.
         const OUTSIDE: f32 = 0.5;
         let size = extent.max - extent.min;
         let (mut inwards, mut outwards) = ([0.0; 6], [0.0; 6]);
@@ -50,9 +55,14 @@ impl Room {
             let across = size - size * SIDES[side].abs();
             across.x * across.y + across.y * across.z + across.z * across.x
         };
-        let is_wall = [0, 1, 2, 3, 4, 5].map(|i| inwards[i] > COVERED * whole(i) && outwards[i] < OUTSIDE * inwards[i]);
-        let walls = WALLS.iter().filter(|&&side| is_wall[side]).count();
-        (is_wall[FLOOR] && walls >= 2).then_some(Self { is_wall })
+        let of = |is_thick: bool| {
+            let is_wall = [0, 1, 2, 3, 4, 5]
+                .map(|i| inwards[i] > COVERED * whole(i) && (is_thick || outwards[i] < OUTSIDE * inwards[i]));
+            let walls = WALLS.iter().filter(|&&side| is_wall[side]).count();
+            (is_wall[FLOOR] && walls >= 2).then_some(Self { is_wall, is_thick })
+        };
+        let thick = || of(true).filter(|room| if room.is_closed() { is_lit } else { room.open() != Vec3::ZERO });
+        of(false).or_else(thick)
     }
 
     /// Whether light can come in from nowhere.
@@ -60,10 +70,30 @@ impl Room {
         self.is_wall.iter().all(|&is_wall| is_wall)
     }
 
+    /// Whether it stands on something, as other things do.
+    pub(super) fn stands(&self) -> bool {
+        self.is_thick && !self.is_closed()
+    }
+
+    /// Outwards through the open sides.
+    fn open(&self) -> Vec3 {
+        WALLS.iter().filter(|&&side| !self.is_wall[side]).map(|&side| SIDES[side]).sum()
+    }
+
     /// Where the eye is put, for pictures so many times as wide as high; `points` and `faces` are those of everything.
     pub(super) fn eye(&self, points: &[Vec3], faces: &[[Vec3; 3]], extent: &Extent, aspect: f32) -> CameraDesc {
-        let open: Vec3 = WALLS.iter().filter(|&&side| !self.is_wall[side]).map(|&side| SIDES[side]).sum();
-        let has_ceiling = self.is_wall[CEILING];
+        let (open, has_ceiling) = (self.open(), self.is_wall[CEILING]);
+        if self.stands() {
+            let front = eye::in_front(points, faces, extent, aspect);
+            let back = Vec3::from(front.look_from) - Vec3::from(front.look_at);
+            // It is open to several sides, or to one, which is seen from a little aside.
+            let aside = 0.4 * open.cross(Vec3::Y);
+            return if back.dot(open) > 0.0 {
+                front
+            } else {
+                eye::from_side(points, extent, aspect, (open + aside).normalize() + 0.4 * Vec3::Y)
+            };
+        }
         if open != Vec3::ZERO {
             let up = if has_ceiling { 0.05 } else { 0.5 };
             return eye::from_side(points, extent, aspect, (open.normalize() + up * Vec3::Y).normalize());
@@ -149,7 +179,7 @@ mod tests {
     }
 
     fn room(desc: &SceneDesc) -> Option<Room> {
-        Room::find(&faces(desc).collect::<Vec<_>>(), &Extent::of(&points(desc)).unwrap())
+        Room::find(&faces(desc).collect::<Vec<_>>(), &Extent::of(&points(desc)).unwrap(), false)
     }
 
     #[test]
@@ -159,12 +189,46 @@ mod tests {
         assert!(closed.is_closed());
         assert!(!room(&boxed(&[0, 1, 2, 3, 4], true, size)).unwrap().is_closed());
         assert_eq!(room(&boxed(&[0, 1, 2, 3, 4, 5], false, size)), None);
-        // A tray, a terrain, and a house with an outside.
+        // A tray, a terrain.
         assert_eq!(room(&boxed(&[1, 2], true, size)), None);
         assert_eq!(room(&boxed(&[2], true, size)), None);
-        let mut house = boxed(&[0, 1, 2, 3, 4, 5], true, size);
-        house.shape.quad.extend(boxed(&[0, 1, 2, 3, 4, 5], false, 1.05 * size).shape.quad);
+    }
+
+    /// With an outside, such as a house.
+    fn thick(sides: &[usize], size: Vec3) -> SceneDesc {
+        let mut house = boxed(sides, true, size);
+        house.shape.quad.extend(boxed(sides, false, 1.05 * size).shape.quad);
+        house
+    }
+
+    #[test]
+    fn thick_walls_are_a_room_if_lamps_are_inside() {
+        let size = Vec3::new(5.0, 2.5, 4.0);
+        let house = thick(&[0, 1, 2, 3, 4, 5], size);
         assert_eq!(room(&house), None);
+        let (points, faces): (_, Vec<_>) = (points(&house), faces(&house).collect());
+        let extent = Extent::of(&points).unwrap();
+        let lit = Room::find(&faces, &extent, true).unwrap();
+        assert!(lit.is_closed() && !lit.stands());
+        let from = Vec3::from(lit.eye(&points, &faces, &extent, 1.5).look_from);
+        assert!(from.abs().cmplt(0.5 * size).all(), "{from}");
+        // A crate without a lid is seen as it is.
+        assert_eq!(room(&thick(&[0, 1, 2, 4, 5], size)), None);
+    }
+
+    #[test]
+    fn thick_walls_are_seen_from_their_open_side() {
+        let size = Vec3::new(5.0, 2.5, 4.0);
+        for open in WALLS {
+            let sides: Vec<_> = (0..6).filter(|&side| side != open).collect();
+            let shelf = thick(&sides, size);
+            let (points, faces): (_, Vec<_>) = (points(&shelf), faces(&shelf).collect());
+            let extent = Extent::of(&points).unwrap();
+            let room = Room::find(&faces, &extent, false).unwrap();
+            let camera = room.eye(&points, &faces, &extent, 1.5);
+            let back = (Vec3::from(camera.look_from) - Vec3::from(camera.look_at)).normalize();
+            assert!(room.stands() && back.dot(SIDES[open]) > 0.2 && back.y > 0.1, "side {open}: {back}");
+        }
     }
 
     #[test]
@@ -173,7 +237,7 @@ mod tests {
         let eye = |desc: &SceneDesc| {
             let (points, faces): (_, Vec<_>) = (points(desc), faces(desc).collect());
             let extent = Extent::of(&points).unwrap();
-            let room = Room::find(&faces, &extent).unwrap();
+            let room = Room::find(&faces, &extent, false).unwrap();
             let camera = room.eye(&points, &faces, &extent, 1.5);
             (Vec3::from(camera.look_from), Vec3::from(camera.look_at), extent)
         };

@@ -1,4 +1,4 @@
-//! A model that turns before a camera and lamps at rest.
+//! A model that turns before a camera and lamps at rest; in a room without an open side, an eye that turns in the middle.
 //!
 //! What turns here is the camera, and with it the light from outside, about the vertical axis through the middle of the model: that is
 //! the same picture, and nothing of the scene moves. A camera that was made up stands so far away that the model fits at every angle: a
@@ -13,6 +13,8 @@ use crate::light::sky::SkyDesc;
 use crate::math::sin_cos_turns;
 use crate::setup::extent::{self, Extent};
 use crate::setup::eye::FILL;
+use crate::setup::has_lamps;
+use crate::setup::room::Room;
 
 /// Where the axis is, and what turns about it.
 #[derive(Clone, Debug)]
@@ -20,6 +22,8 @@ pub struct Turntable {
     center: Vec3,
     /// Of each point, the distance from the axis and the height above the middle.
     points: Vec<[f32; 2]>,
+    /// Whether the eye is in a room and turns, and the light stays where it is.
+    is_inside: bool,
 }
 
 /// What a camera sees at an angle.
@@ -39,11 +43,20 @@ impl Turntable {
         let center = extent.center();
         let seen = points.iter().filter(|&&p| extent.holds(p)).map(|&p| p - center);
         let points = seen.map(|p| [(p.x * p.x + p.z * p.z).sqrt(), p.y]).collect();
-        Some(Self { center, points })
+        let faces: Vec<_> = extent::faces(desc).collect();
+        let is_inside = Room::find(&faces, &extent, has_lamps(desc)).is_some_and(|room| room.is_closed());
+        Some(Self { center, points, is_inside })
     }
 
-    /// Lets a perspective camera look at the axis, from its side, from so far that the model fits at every angle.
+    /// Lets a perspective camera look at the axis, from its side, from so far that the model fits at every angle; in a room, from the
+    /// axis.
     pub fn fit(&self, camera: &mut CameraDesc, aspect: f32) {
+        if self.is_inside {
+            let ahead = (Vec3::from(camera.look_at) - Vec3::from(camera.look_from)).with_y(0.0);
+            camera.look_from = self.center.into();
+            camera.look_at = (self.center + ahead).into();
+            return;
+        }
         let back = (Vec3::from(camera.look_from) - Vec3::from(camera.look_at)).normalize_or(Vec3::Z);
         let right = Vec3::Y.cross(back).normalize_or(Vec3::X);
         let up = back.cross(right);
@@ -76,8 +89,9 @@ impl Turntable {
             return View { camera, environment };
         }
         let (sin, cos) = sin_cos_turns(turns);
+        let center = if self.is_inside { camera.look_from.into() } else { self.center };
         let turn = |v: [f32; 3]| [v[0] * cos + v[2] * sin, v[1], v[2] * cos - v[0] * sin];
-        let place = |p: [f32; 3]| (self.center + Vec3::from(turn((Vec3::from(p) - self.center).into()))).into();
+        let place = |p: [f32; 3]| (center + Vec3::from(turn((Vec3::from(p) - center).into()))).into();
         camera.look_from = place(camera.look_from);
         camera.look_at = place(camera.look_at);
         camera.up = turn(camera.up);
@@ -87,6 +101,7 @@ impl Turntable {
             key.up = key.up.map(turn);
         }
         match &mut environment {
+            _ if self.is_inside => {}
             EnvironmentDesc::Image(map) => map.rotation = (map.rotation + 360.0 * turns) % 360.0,
             EnvironmentDesc::Sky(sky) => {
                 let sun = turn(sky.direction_to_sun().into());
@@ -113,7 +128,7 @@ impl Turntable {
 mod tests {
     use super::*;
     use crate::setup::{Given, Setup};
-    use crate::shape::MeshDesc;
+    use crate::shape::{MeshDesc, QuadDesc};
 
     /// A long bar.
     fn bar() -> SceneDesc {
@@ -151,6 +166,30 @@ mod tests {
             let most = (0..360).map(of).fold(0.0, f32::max);
             assert!((0.7..0.7401).contains(&most), "{most} at {aspect}");
         }
+    }
+
+    #[test]
+    fn in_a_room_the_eye_turns() {
+        let mut desc = SceneDesc::default();
+        for axis in 0..3 {
+            let [x, y] = [1, 2].map(|i| Vec3::from([0, 1, 2].map(|k| if k == (axis + i) % 3 { 4.0 } else { 0.0 })));
+            let near = Vec3::splat(-2.0);
+            let far = near + x.cross(y).normalize() * 4.0;
+            for [corner, u, v] in [[near, x, y], [far, y, x]] {
+                let [corner, u, v] = [corner, u, v].map(Into::into);
+                desc.shape.quad.push(QuadDesc { corner, u, v, ..QuadDesc::default() });
+            }
+        }
+        let turntable = Turntable::around(&desc).unwrap();
+        Setup::default().complete(&mut desc, Given::default());
+        turntable.fit(&mut desc.camera, 1.5);
+        let sky = EnvironmentDesc::Sky(SkyDesc::default());
+        let view = View { camera: desc.camera, environment: sky.clone() };
+        let half = turntable.turned(&view, 0.5);
+        let ahead = |view: &View| Vec3::from(view.camera.look_at) - Vec3::from(view.camera.look_from);
+        assert_eq!(view.camera.look_from, [0.0; 3]);
+        assert_eq!((half.camera.look_from, half.environment), ([0.0; 3], sky));
+        assert!((ahead(&view) + ahead(&turntable.turned(&view, 0.5))).length() < 1e-5 && ahead(&view).y == 0.0);
     }
 
     #[test]
