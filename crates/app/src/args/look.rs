@@ -71,6 +71,7 @@ fn about(view: View) -> &'static str {
         View::Aces => "Contrast and warm highlights as in cinemas",
         View::Agx => "Bright colours fade to white, as in photographs",
         View::AgxBase => "The same without added contrast",
+        View::Neutral => "Colours as they are, of products; highlights fade to white",
         View::Raw => "No curve: linear light, clipped at 1",
     }
 }

@@ -5,6 +5,7 @@
 mod aces;
 mod agx;
 mod filmic;
+mod neutral;
 mod raw;
 mod standard;
 
@@ -27,6 +28,8 @@ pub enum View {
     Agx,
     /// The same without added contrast, to be developed further.
     AgxBase,
+    /// Colours of products as they are; only what is brighter fades to white.
+    Neutral,
     /// No curve: linear light, clipped at 1.
     Raw,
 }
@@ -42,6 +45,7 @@ impl View {
         ("aces", Self::Aces),
         ("agx", Self::Agx),
         ("agx-base", Self::AgxBase),
+        ("neutral", Self::Neutral),
         ("raw", Self::Raw),
     ];
 
@@ -58,6 +62,7 @@ impl View {
             Self::Aces => aces::signal(rgb),
             Self::Agx => agx::signal(rgb),
             Self::AgxBase => agx::base(rgb),
+            Self::Neutral => neutral::signal(rgb),
             Self::Raw => raw::signal(rgb),
         }
     }
