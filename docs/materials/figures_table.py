@@ -130,6 +130,12 @@ CLEAR = [
         "materials/dielectric-eta", each("dielectric.eta = $", (1.05, 1.2, 1.33, 1.5, 1.8, 2.42)), strip=True, spp=160
     ),
     Figure(
+        "materials/dielectric-dispersion",
+        each("dielectric = { eta = 1.7, abbe_number = $ }", (10000, 60, 30, 15, 8, 4)),
+        strip=True,
+        spp=320,
+    ),
+    Figure(
         "materials/thin-dielectric",
         each("thin-dielectric.eta = $", (1.1, 1.33, 1.5, 2.42))
         + each("thin-dielectric = { eta = 1.5, color = $ }", ("[0.9, 0.5, 0.3]", "[0.3, 0.6, 0.8]")),

@@ -60,7 +60,7 @@ impl Shown {
         let mut si = look.si;
         // Share of the energy, so that glass is as bright from inside as from outside.
         let mut share = Spectrum::ONE;
-        let mut interior = Interior::new(scene);
+        let mut interior = Interior::new(scene, sampler);
         for _ in 0..most {
             let bsdf = interior.bsdf(&si);
             if !bsdf.is_delta() {

@@ -59,7 +59,7 @@ impl Path {
         // Refraction squeezes light into another solid angle; that is no reason to end or keep a path.
         let mut eta_sq = 1.0;
         let mut scattered: Option<Scattered> = None;
-        let mut interior = if PLAIN { Interior::EMPTY } else { Interior::new(scene) };
+        let mut interior = if PLAIN { Interior::EMPTY } else { Interior::new(scene, sampler) };
         // Nothing but smooth glass so far, through which the background shows.
         let mut clear = true;
         for depth in 1..=self.max_depth {

@@ -35,7 +35,7 @@ impl Weekend {
     fn ray_color(&self, scene: &Scene, mut ray: Ray, sampler: &mut Sampler<'_>, rays: &mut u64) -> Seen {
         let mut l = Spectrum::BLACK;
         let mut beta = Spectrum::ONE;
-        let mut interior = Interior::new(scene);
+        let mut interior = Interior::new(scene, sampler);
         // Nothing but smooth glass so far, through which the background shows.
         let mut clear = true;
         for _ in 0..self.max_depth {

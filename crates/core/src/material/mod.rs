@@ -313,6 +313,16 @@ impl Bsdf {
         }
     }
 
+    /// Makes its inside that of one wavelength: an index of refraction `bend` times as large, and what is bent is of a colour, of which
+    /// the mean over all wavelengths is white.
+    pub(crate) fn disperse(&mut self, bend: f32, color: Spectrum) {
+        match self {
+            Self::Dielectric(b) => b.disperse(bend, color),
+            Self::Principled(b) => b.disperse(bend, color),
+            _ => {}
+        }
+    }
+
     /// Draws `wi` for a `wo`; none if the light is absorbed.
     #[inline(always)]
     pub fn sample(&self, wo: Vec3, uc: f32, u: Vec2) -> Option<BsdfSample> {

@@ -64,6 +64,8 @@ pub struct Scene {
     textures: Vec<TextureDesc>,
     /// What is inside shapes, by their material; empty if that matters nowhere.
     fillings: Vec<Option<Filling>>,
+    /// Whether one of these bends light of some colours more than that of others.
+    disperses: bool,
     lights: Lights,
     camera: CameraDesc,
     holes: Holes,
@@ -209,6 +211,7 @@ impl Scene {
             objects,
             materials,
             textures,
+            disperses: fillings.iter().flatten().any(Filling::disperses),
             fillings,
             lights,
             camera,
@@ -319,6 +322,12 @@ impl Scene {
         si.map_or(Spectrum::BLACK, |si| si.le())
     }
 
+    /// Whether light of some colours is bent more than that of others.
+    #[inline]
+    pub(crate) fn disperses(&self) -> bool {
+        self.disperses
+    }
+
     /// What is inside of shapes, by the numbers of their materials; empty if that matters nowhere.
     #[inline]
     pub(crate) fn fillings(&self) -> &[Option<Filling>] {
@@ -352,10 +361,10 @@ pub(crate) struct Look<'s> {
     pub(crate) ids: Ids,
 }
 
-/// What is inside shapes of materials, if any absorbs light or takes the place of others.
+/// What is inside shapes of materials, if any matters.
 fn fillings(materials: &[MaterialDesc]) -> Vec<Option<Filling>> {
     let mut fillings: Vec<_> = (0..materials.len() as u32).map(|index| filling(materials, index)).collect();
-    if fillings.iter().flatten().all(|filling| filling.priority == 0 && filling.sigma_a.is_black()) {
+    if !fillings.iter().flatten().any(Filling::matters) {
         fillings.clear();
     }
     fillings

@@ -182,6 +182,49 @@ fn frosted() -> SceneDesc {
     desc
 }
 
+/// Frosted and layered glass that bends colours differently, one within the other, and a lamp that shines through it.
+fn dispersive() -> SceneDesc {
+    let mut desc = still_life(EnvironmentDesc::default());
+    let flint = |roughness: f32, priority| {
+        let roughness = roughness.into();
+        MaterialDesc::Dielectric(Dielectric {
+            eta: 1.7,
+            abbe_number: Some(5.0),
+            roughness,
+            priority,
+            ..Dielectric::default()
+        })
+    };
+    let layers = Principled {
+        transmission_weight: 1.0.into(),
+        specular_roughness: 0.6.into(),
+        specular_ior: 2.0,
+        transmission_dispersion_scale: 1.0,
+        transmission_dispersion_abbe_number: 4.0,
+        coat_weight: 0.5.into(),
+        ..Principled::default()
+    };
+    for (name, material) in [
+        ("lamp", lamp(4.0)),
+        ("frosted", flint(0.6, 2)),
+        ("smooth", flint(0.0, 1)),
+        ("layers", MaterialDesc::Principled(layers.into())),
+    ] {
+        with(&mut desc, name, material);
+    }
+    desc.shape.quad.push(quad([-1.0, 3.0, -1.0], [2.0, 0.0, 0.0], [0.0, 0.0, 2.0], "lamp"));
+    for (center, radius, name) in [
+        ([1.2, 0.6, 0.2], 0.6, "frosted"),
+        ([1.2, 0.6, 1.0], 0.5, "smooth"),
+        ([-1.2, 0.6, 0.2], 0.6, "layers"),
+        ([0.0, 0.4, 1.2], 0.4, "frosted"),
+    ] {
+        desc.shape.sphere.push(sphere(center, radius));
+        desc.shape.sphere.last_mut().unwrap().material = Some(name.to_owned());
+    }
+    desc
+}
+
 /// Plaster, velvet, and a lamp in front of and behind a pane and a sheet of paper.
 fn matte_and_thin() -> SceneDesc {
     let mut desc = still_life(EnvironmentDesc::default());
@@ -333,6 +376,7 @@ fn where_light_sampling_helps() {
     check("panorama", &panorama());
     check("sun", &sun());
     check("frosted", &frosted());
+    check("dispersive", &dispersive());
     check("matte and thin", &matte_and_thin());
     check("layered", &layered());
     check("worn", &worn());

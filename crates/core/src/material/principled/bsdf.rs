@@ -121,6 +121,14 @@ impl View {
 }
 
 impl PrincipledBsdf {
+    /// Makes its inside that of one wavelength.
+    pub(crate) fn disperse(&mut self, bend: f32, color: Spectrum) {
+        if !self.is_thin {
+            self.eta_through *= bend;
+            self.transmission = Rgb((Spectrum::from(self.transmission) * color).to_rgb());
+        }
+    }
+
     /// Whether the facets are a mirror.
     #[inline]
     fn is_smooth(&self) -> bool {
@@ -435,7 +443,7 @@ impl PrincipledBsdf {
             return 0.0;
         }
         let through = rest(self.pane_reflectance(cos, inside)).clamp(0.02, 1.0);
-        (through * Spectrum::from(self.transmission)).max_component() * self.clear
+        (through * Spectrum::from(self.transmission)).max_component().min(1.0) * self.clear
     }
 
     /// What does not depend on `wi`, for `wo` above the surface, which is seen from below if `side` is -1.

@@ -99,12 +99,18 @@ pub struct Principled {
     /// How much of what is not metal is clear, 0..1.
     #[schemars(range(min = 0.0, max = 1.0))]
     pub transmission_weight: Scalar,
-    /// The colour of white light after `transmission_depth` inside, 0..1 in each channel; if that is 0, the surface is a sheet or
-    /// the colour is a texture, what is left each time that it goes through the surface.
+    /// The colour of white light after `transmission_depth` inside, 0..1 in each channel; if that is 0 or the colour is a texture, what is
+    /// left of it behind, having gone through the surface twice; of a sheet, once.
     pub transmission_color: Color,
     /// Metres, not negative, in which light that goes through gets its colour.
     #[schemars(range(min = 0.0))]
     pub transmission_depth: f32,
+    /// How much the index of refraction inside changes with the colour of light, 0..1: a factor on 1 / `transmission_dispersion_abbe_number`.
+    #[schemars(range(min = 0.0, max = 1.0))]
+    pub transmission_dispersion_scale: f32,
+    /// Abbe's number at a scale of 1, 1..10000: `specular_ior` is the index at 587.56 nm.
+    #[schemars(range(min = 1.0, max = 10_000.0))]
+    pub transmission_dispersion_abbe_number: f32,
     /// How much of the matte base is of `subsurface_color`, 0..1.
     #[schemars(range(min = 0.0, max = 1.0))]
     pub subsurface_weight: Scalar,
@@ -179,6 +185,8 @@ impl Default for Principled {
             transmission_weight: 0.0.into(),
             transmission_color: grey(1.0),
             transmission_depth: 0.0,
+            transmission_dispersion_scale: 0.0,
+            transmission_dispersion_abbe_number: 20.0,
             subsurface_weight: 0.0.into(),
             subsurface_color: grey(0.8),
             coat_weight: 0.0.into(),
@@ -212,6 +220,8 @@ impl Principled {
         c.in_range("coat_ior", self.coat_ior, 1.0, Boundary::MAX_ETA);
         c.in_range("emission_luminance", self.emission_luminance, 0.0, 1e9);
         c.in_range("transmission_depth", self.transmission_depth, 0.0, 1e15);
+        c.in_range("transmission_dispersion_scale", self.transmission_dispersion_scale, 0.0, 1.0);
+        c.in_range("transmission_dispersion_abbe_number", self.transmission_dispersion_abbe_number, 1.0, 1e4);
         c.in_range("thin_film_ior", self.thin_film_ior, 1.0, ThinFilm::MAX_ETA);
         c.in_range("specular_rotation", self.specular_rotation, -1e4, 1e4);
         c.in_range("geometry_coat_normal_strength", self.geometry_coat_normal_strength, -100.0, 100.0);
@@ -312,11 +322,22 @@ impl Principled {
         self.transmission_depth > 0.0 && self.transmission_color.rgb().is_some() && !self.geometry_thin_walled
     }
 
+    /// What is left of light each time that it goes through the surface.
+    fn left_at_surface(&self, textures: &impl Textures) -> Rgb {
+        if self.is_filled() {
+            return Rgb::grey(1.0);
+        }
+        let color = self.transmission_color.share_at(textures).to_rgb();
+        // What has an inside is gone through twice.
+        Rgb(if self.geometry_thin_walled { color } else { color.map(f32::sqrt) })
+    }
+
     /// What is inside, if it is clear.
     pub(crate) fn filling(&self) -> Option<Filling> {
         let clear = self.transmission_weight.number() != Some(0.0) && !self.geometry_thin_walled;
         let color = self.transmission_color.rgb().filter(|_| self.is_filled()).unwrap_or(Rgb::grey(1.0));
-        clear.then(|| Filling::of_color(color, self.transmission_depth, self.specular_ior, 0))
+        let dispersion = self.transmission_dispersion_scale / self.transmission_dispersion_abbe_number;
+        clear.then(|| Filling { dispersion, ..Filling::of_color(color, self.transmission_depth, self.specular_ior, 0) })
     }
 
     #[inline(never)]
@@ -352,7 +373,7 @@ impl Principled {
             x: self.long_axis(textures),
             eta_through: if self.geometry_thin_walled { 1.0 } else { self.specular_ior },
             is_thin: self.geometry_thin_walled,
-            transmission: if self.is_filled() { Rgb::grey(1.0) } else { Rgb(color(&self.transmission_color).to_rgb()) },
+            transmission: self.left_at_surface(textures),
             coat: coat.boundary,
             coat_weight,
             coat_tilt: if coat_weight > 0.0 { self.coat_tilt(textures) } else { Vec2::ZERO },

@@ -73,6 +73,13 @@ fn reciprocal_without_layers_above() {
 }
 
 #[test]
+fn bends_one_color() {
+    let mut lobe = lobe(&Principled { coat_weight: 0.5.into(), ..glass(0.4) });
+    lobe.disperse(1.04, Spectrum::from_rgb([0.1, 0.95, 0.45]));
+    check_lobe(&lobe, Reciprocal::No).unwrap();
+}
+
+#[test]
 fn layers() {
     let base = Principled { base_color: rgb(0.9, 0.4, 0.1), ..Principled::default() };
     let coated = Principled { coat_weight: 1.0.into(), coat_color: rgb(0.9, 0.8, 0.6), ..base.clone() };

@@ -20,6 +20,7 @@ const READ: &[&str] = &[
     "KHR_materials_anisotropy",
     "KHR_materials_clearcoat",
     "KHR_materials_diffuse_transmission",
+    "KHR_materials_dispersion",
     "KHR_materials_emissive_strength",
     "KHR_materials_ior",
     "KHR_materials_iridescence",
@@ -47,9 +48,13 @@ pub(super) fn check(document: &Document, warnings: &mut Vec<Warning>) -> Result<
     Ok(())
 }
 
-/// An extension of an object, if it has that and it makes sense.
-pub(super) fn get<T: DeserializeOwned>(extensions: &Extensions, name: &str) -> Option<T> {
-    T::deserialize(extensions.get(name)?).ok()
+/// An extension of an object, if it has that.
+///
+/// # Errors
+/// If it is not as its specification says.
+pub(super) fn get<T: DeserializeOwned>(extensions: &Extensions, name: &str) -> Result<Option<T>, FileError> {
+    let value = extensions.get(name).map(T::deserialize).transpose();
+    value.map_err(|e| FileError::new(format!("{name}: {e}")))
 }
 
 /// `KHR_materials_clearcoat`
@@ -98,6 +103,13 @@ pub(super) struct Volume {
     pub(super) thickness_factor: f32,
     pub(super) attenuation_distance: Option<f32>,
     pub(super) attenuation_color: Option<[f32; 3]>,
+}
+
+/// `KHR_materials_dispersion`
+#[derive(Debug, Default, Deserialize)]
+#[serde(default)]
+pub(super) struct Dispersion {
+    pub(super) dispersion: f32,
 }
 
 /// `KHR_materials_specular`

@@ -7,6 +7,7 @@
 //! | sheen | fuzz, of the weight of its brightest channel |
 //! | transmission | transmission; a sheet (thin-walled) unless there is a volume |
 //! | volume | transmission_color at transmission_depth; the base colour tints only sheets |
+//! | dispersion | transmission_dispersion |
 //! | specular, ior | specular_weight, specular_color, specular_ior; partly metal where it reflects more than a quarter |
 //! | iridescence | thin_film |
 //! | anisotropy | specular_roughness_anisotropy, specular_rotation, geometry_tangent |
@@ -28,10 +29,12 @@ use eyebeam_core::names::Name;
 use eyebeam_core::texture::{
     Channel, ChannelOf, Color, Encoding, Interpolation, Multiply, Ramp, Scalar, Stop, TextureDesc, VertexColor,
 };
+use serde::de::DeserializeOwned;
 
+use crate::scene::model::gltf::directions::CLEARCOAT;
 use crate::scene::model::gltf::document::{Document, Material, TextureInfo};
 use crate::scene::model::gltf::extensions::{
-    Clearcoat, EmissiveStrength, Iridescence, Leaf, Sheen, SpecularGlossiness, Transmission, Volume, get,
+    Clearcoat, Dispersion, EmissiveStrength, Iridescence, Leaf, Sheen, SpecularGlossiness, Transmission, Volume,
 };
 use crate::scene::model::gltf::reflectance::Mirror;
 use crate::scene::model::gltf::texture::Pictures;
@@ -57,8 +60,6 @@ pub(super) struct Painted {
     /// Whether they have alphas.
     pub(super) alphas: bool,
 }
-
-const OCCLUSION: &str = "occlusion is computed, not read";
 
 impl<'a> Materials<'a> {
     pub(super) fn new(document: &'a Document, pictures: &'a Pictures, file: &'a str) -> Self {
@@ -86,14 +87,7 @@ impl<'a> Materials<'a> {
             *count += 1;
             name = format!("{base}-{count}");
         }
-        let count = warnings.len();
         Maker { all: self, material, name: &name, painted, mirror: None, desc, warnings }.make();
-        for warning in warnings.iter_mut().skip(count) {
-            warning.message = format!("material `{name}`: {}", warning.message);
-        }
-        if material.occlusion_texture.is_some() && warnings.iter().all(|w| w.message != OCCLUSION) {
-            warnings.push(Warning::new(OCCLUSION));
-        }
         self.names.insert((index, painted), name.clone());
         name
     }
@@ -163,6 +157,9 @@ impl Maker<'_, '_> {
         if let Some(opacity) = self.opacity(alpha_mode.as_deref(), alpha) {
             let of = self.part("opaque", surface);
             surface = MaterialDesc::Mask(Mask::new(of, opacity));
+        }
+        if self.material.occlusion_texture.is_some() {
+            self.warn("occlusion is computed, not read");
         }
         self.desc.material.insert(self.name.to_owned(), surface);
     }
@@ -243,7 +240,7 @@ impl Maker<'_, '_> {
     }
 
     fn layers(&mut self, p: &mut Principled) {
-        if let Some(coat) = self.extension::<Clearcoat>("KHR_materials_clearcoat") {
+        if let Some(coat) = self.extension::<Clearcoat>(CLEARCOAT) {
             p.coat_weight = self.channel(coat.clearcoat_texture.as_ref(), Channel::Red, coat.clearcoat_factor, "coat");
             let (texture, factor) = (coat.clearcoat_roughness_texture.as_ref(), coat.clearcoat_roughness_factor);
             p.coat_roughness = self.channel(texture, Channel::Green, factor, "coat-roughness");
@@ -282,6 +279,7 @@ impl Maker<'_, '_> {
         p.transmission_weight =
             self.channel(transmission.transmission_texture.as_ref(), Channel::Red, factor, "transmission");
         let volume: Volume = self.extension("KHR_materials_volume").unwrap_or_default();
+        let Dispersion { dispersion } = self.extension("KHR_materials_dispersion").unwrap_or_default();
         if volume.thickness_factor > 0.0 {
             let distance = volume.attenuation_distance.filter(|d| d.is_finite() && *d > 0.0);
             p.transmission_color =
@@ -290,6 +288,9 @@ impl Maker<'_, '_> {
                 Some(distance) => p.transmission_depth = distance,
                 None => p.transmission_color = p.base_color.clone(),
             }
+            // 20 over Abbe's number.
+            p.transmission_dispersion_scale = bounded(dispersion, 0.0, 1.0);
+            p.transmission_dispersion_abbe_number = bounded(20.0 / dispersion.max(1.0), 1.0, 20.0);
         } else {
             p.geometry_thin_walled = true;
             p.transmission_color = p.base_color.clone();
@@ -308,12 +309,14 @@ impl Maker<'_, '_> {
         }
     }
 
-    pub(super) fn extension<T: serde::de::DeserializeOwned>(&self, name: &str) -> Option<T> {
-        get(&self.material.extensions, name)
+    /// An extension, if there is one that makes sense.
+    pub(super) fn extension<T: DeserializeOwned>(&mut self, name: &str) -> Option<T> {
+        let extension = T::deserialize(self.material.extensions.get(name)?);
+        extension.map_err(|e| self.warn(&format!("{name} is ignored: {e}"))).ok()
     }
 
     pub(super) fn warn(&mut self, message: &str) {
-        self.warnings.push(Warning::new(message));
+        self.warnings.push(Warning::new(message).part(format!("material `{}`", self.name)));
     }
 
     /// A texture of the material, by a name of its own.
