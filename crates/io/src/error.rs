@@ -3,7 +3,8 @@
 use std::fmt;
 use std::path::{Path, PathBuf};
 
-use serde::Serialize;
+use serde::ser::SerializeMap;
+use serde::{Serialize, Serializer};
 
 /// Why a file could not be read or written.
 #[derive(Debug, thiserror::Error)]
@@ -63,14 +64,68 @@ pub struct FileError {
 }
 
 /// Where in a file.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub enum At {
     /// Anywhere.
     File,
     /// In this line of a text, from 1.
     Line(usize),
+    /// At this character of a text.
+    Character {
+        /// From 1.
+        line: usize,
+        /// From 1.
+        column: usize,
+    },
     /// At this byte, from 0.
     Byte(usize),
+    /// In a part that has a name, as in "material `Glass`".
+    Part(String),
+}
+
+/// A place in a file.
+#[derive(Clone, Debug, PartialEq, Eq, PartialOrd, Ord)]
+pub struct Place {
+    /// The file, as the user named it.
+    pub file: String,
+    /// Where in it.
+    pub at: At,
+}
+
+impl fmt::Display for Place {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        fmt_place(f, &self.file, &self.at)
+    }
+}
+
+fn fmt_place(f: &mut fmt::Formatter<'_>, file: &str, at: &At) -> fmt::Result {
+    write!(f, "{}", visible(file))?;
+    match at {
+        At::File => Ok(()),
+        At::Line(line) => write!(f, ":{line}"),
+        At::Character { line, column } => write!(f, ":{line}:{column}"),
+        At::Byte(byte) => write!(f, ", byte {byte}"),
+        At::Part(part) => write!(f, ", {}", visible(part)),
+    }
+}
+
+/// As `file` and what else is known of `line`, `column`, `byte` and `part`.
+impl Serialize for Place {
+    fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
+        let mut map = serializer.serialize_map(None)?;
+        map.serialize_entry("file", &self.file)?;
+        match &self.at {
+            At::File => {}
+            At::Line(line) => map.serialize_entry("line", line)?,
+            At::Character { line, column } => {
+                map.serialize_entry("line", line)?;
+                map.serialize_entry("column", column)?;
+            }
+            At::Byte(byte) => map.serialize_entry("byte", byte)?,
+            At::Part(part) => map.serialize_entry("part", part)?,
+        }
+        map.end()
+    }
 }
 
 impl FileError {
@@ -105,28 +160,13 @@ impl From<Error> for FileError {
 
 impl fmt::Display for FileError {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        write!(f, "error: {}\n  --> {}", visible(&self.message), visible(&self.file))?;
-        match self.at {
-            At::File => {}
-            At::Line(line) => write!(f, ":{line}")?,
-            At::Byte(byte) => write!(f, ", byte {byte}")?,
-        }
+        write!(f, "error: {}\n  --> ", visible(&self.message))?;
+        fmt_place(f, &self.file, &self.at)?;
         if let Some(hint) = &self.hint {
             write!(f, "\nhint: {}", visible(hint))?;
         }
         Ok(())
     }
-}
-
-/// A place in a file.
-#[derive(Clone, Debug, PartialEq, Eq, PartialOrd, Ord, Serialize)]
-pub struct Place {
-    /// The file, as the user named it.
-    pub file: String,
-    /// From 1.
-    pub line: usize,
-    /// From 1, in characters.
-    pub column: usize,
 }
 
 /// One thing that is wrong, where, and what to do about it.
@@ -144,20 +184,20 @@ pub struct Diagnostic {
 
 impl fmt::Display for Diagnostic {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        fmt_report(f, "error", &self.message, self.place.as_ref(), self.hint.as_deref())
+        fmt_report(f, "error", &self.message, self.place.as_slice(), self.hint.as_deref())
     }
 }
 
-pub(crate) fn fmt_report(
+pub(crate) fn fmt_report<'p>(
     f: &mut fmt::Formatter<'_>,
     kind: &str,
     message: &str,
-    place: Option<&Place>,
+    places: impl IntoIterator<Item = &'p Place>,
     hint: Option<&str>,
 ) -> fmt::Result {
     write!(f, "{kind}: {}", visible(message))?;
-    if let Some(Place { file, line, column }) = place {
-        write!(f, "\n  --> {}:{line}:{column}", visible(file))?;
+    for place in places {
+        write!(f, "\n  --> {place}")?;
     }
     if let Some(hint) = hint {
         write!(f, "\nhint: {}", visible(hint))?;

@@ -4,14 +4,14 @@ use std::fmt;
 
 use serde::Serialize;
 
-use crate::error::{Diagnostic, Place, fmt_report};
+use crate::error::{At, Diagnostic, Place, fmt_report};
 
 /// Something that was not kept as it is in a file, or that has no effect in a scene; the rest is fine.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize)]
 pub struct Warning {
     /// What, and what came of it.
     pub message: String,
-    /// Where in the scene.
+    /// Where.
     pub place: Option<Place>,
     /// What to do about it.
     pub hint: Option<String>,
@@ -21,11 +21,35 @@ impl Warning {
     pub(crate) fn new(message: impl Into<String>) -> Self {
         Self { message: message.into(), place: None, hint: None }
     }
+
+    /// In a file that has no name yet: [`Self::of`] gives it.
+    pub(crate) fn at(self, at: At) -> Self {
+        Self { place: Some(Place { file: String::new(), at }), ..self }
+    }
+
+    /// In a part of it.
+    pub(crate) fn part(self, part: impl Into<String>) -> Self {
+        self.at(At::Part(part.into()))
+    }
+
+    pub(crate) fn hint(self, hint: impl Into<String>) -> Self {
+        Self { hint: Some(hint.into()), ..self }
+    }
+
+    /// In a file, unless it is in another.
+    pub(crate) fn of(self, file: &str) -> Self {
+        let at = match self.place {
+            Some(Place { ref file, .. }) if !file.is_empty() => return self,
+            Some(Place { at, .. }) => at,
+            None => At::File,
+        };
+        Self { place: Some(Place { file: file.to_owned(), at }), ..self }
+    }
 }
 
 impl fmt::Display for Warning {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        fmt_report(f, "warning", &self.message, self.place.as_ref(), self.hint.as_deref())
+        fmt_report(f, "warning", &self.message, self.place.as_slice(), self.hint.as_deref())
     }
 }
 

@@ -1,6 +1,6 @@
 //! What is worth a word about a scene: of a model, all that was ignored or approximated.
 
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, BTreeSet};
 
 use eyebeam_io::error::visible;
 use eyebeam_io::scene::SceneFile;
@@ -38,39 +38,55 @@ const SHORT: usize = 5;
 /// Warnings that say the same, once; for programs, too.
 #[derive(Clone, Debug, Serialize)]
 pub(super) struct Told<'w> {
-    #[serde(flatten)]
-    warning: &'w Warning,
+    message: &'w str,
+    /// Each once, in the order in which they were met.
+    places: Vec<&'w Place>,
+    hint: Option<&'w str>,
     /// How often it was met.
     count: usize,
 }
 
 /// Each warning once, in the order in which they were met.
 pub(super) fn told(warnings: &[Warning]) -> Vec<Told<'_>> {
-    let mut known = BTreeMap::new();
+    let (mut known, mut met) = (BTreeMap::new(), BTreeSet::new());
     let mut told: Vec<Told<'_>> = Vec::new();
-    for warning @ Warning { message, place, hint } in warnings {
-        let index = *known.entry((message, place, hint)).or_insert(told.len());
-        match told.get_mut(index) {
-            Some(same) => same.count += 1,
-            None => told.push(Told { warning, count: 1 }),
+    for Warning { message, place, hint } in warnings {
+        let index = *known.entry((message, hint)).or_insert(told.len());
+        if index == told.len() {
+            told.push(Told { message, places: Vec::new(), hint: hint.as_deref(), count: 0 });
+        }
+        if let Some(same) = told.get_mut(index) {
+            same.count += 1;
+            same.places.extend(place.as_ref().filter(|place| met.insert((index, *place))));
         }
     }
     told
 }
 
 impl Told<'_> {
-    /// With its place and its hint.
+    /// The most places that are shown of one.
+    const PLACES: usize = 10;
+
+    /// With its places and its hint.
     pub(super) fn whole(&self) -> String {
-        let message = format!("{}{}", self.warning.message, self.times());
-        Warning { message, ..self.warning.clone() }.to_string()
+        let mut text = format!("warning: {}{}", visible(self.message), self.times());
+        let mut add = |line: String| {
+            text.push('\n');
+            text += &line;
+        };
+        self.places.iter().take(Self::PLACES).for_each(|place| add(format!("  --> {place}")));
+        let rest = self.places.len().saturating_sub(Self::PLACES);
+        if rest > 0 {
+            add(format!("  --> and {rest} more places"));
+        }
+        self.hint.iter().for_each(|hint| add(format!("hint: {}", visible(hint))));
+        text
     }
 
-    /// In one line, without the hint.
+    /// In one line, with the first place, without the hint.
     pub(super) fn line(&self) -> String {
-        let Warning { message, place, .. } = self.warning;
-        let at = |Place { file, line, column }: &Place| format!("{file}:{line}:{column}: ");
-        let place = place.as_ref().map(at).unwrap_or_default();
-        visible(&format!("{place}{message}{}", self.times()))
+        let place = self.places.first().map(|place| format!("{place}: ")).unwrap_or_default();
+        format!("{place}{}{}", visible(self.message), self.times())
     }
 
     fn times(&self) -> String {
@@ -109,6 +125,8 @@ pub(super) fn say_of(file: SceneFile, strict: bool, talk: Talk) -> Result<SceneF
 
 #[cfg(test)]
 mod tests {
+    use eyebeam_io::error::At;
+
     use super::*;
 
     fn warnings(messages: impl IntoIterator<Item = &'static str>) -> Vec<Warning> {
@@ -132,14 +150,26 @@ mod tests {
 
     #[test]
     fn programs_get_them_too() {
-        let place = Some(Place { file: "a.toml".to_owned(), line: 3, column: 8 });
-        let warning = Warning { place, ..warnings(["a\nb"]).remove(0) };
-        let all = [warning.clone(), warning];
+        let at = |line| Some(Place { file: "a.toml".to_owned(), at: At::Character { line, column: 8 } });
+        let all = [3, 3, 5].map(|line| Warning { place: at(line), ..warnings(["a\nb"]).remove(0) });
         let told = told(&all);
         let expected = serde_json::json!([{
-            "message": "a\nb", "place": { "file": "a.toml", "line": 3, "column": 8 }, "hint": "h", "count": 2
+            "message": "a\nb",
+            "places": [{ "file": "a.toml", "line": 3, "column": 8 }, { "file": "a.toml", "line": 5, "column": 8 }],
+            "hint": "h",
+            "count": 3,
         }]);
         assert_eq!(serde_json::to_value(&told).unwrap(), expected);
-        assert_eq!(told[0].line(), "a.toml:3:8: a\\nb (2 times)");
+        assert_eq!(told[0].line(), "a.toml:3:8: a\\nb (3 times)");
+        let whole = "warning: a\\nb (3 times)\n  --> a.toml:3:8\n  --> a.toml:5:8\nhint: h";
+        assert_eq!(told[0].whole(), whole);
+    }
+
+    #[test]
+    fn not_every_place_is_shown() {
+        let at = |i| Some(Place { file: "a.glb".to_owned(), at: At::Part(format!("picture {i}")) });
+        let all: Vec<_> = (0..13).map(|i| Warning { place: at(i), ..warnings(["a"]).remove(0) }).collect();
+        let whole = told(&all)[0].whole();
+        assert!(whole.contains("--> a.glb, picture 9\n  --> and 3 more places\nhint"), "{whole}");
     }
 }

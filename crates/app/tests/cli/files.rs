@@ -68,7 +68,7 @@ fn warnings_are_told_once() {
     let warnings = &place.json("a.json")["warnings"];
     let message = "nothing shines: the picture will be black";
     assert_eq!((&warnings[0]["message"], &warnings[0]["count"]), (&message.into(), &1.into()));
-    assert_eq!(warnings[0]["place"], serde_json::json!({ "file": "dark.toml", "line": 1, "column": 2 }));
+    assert_eq!(warnings[0]["places"], serde_json::json!([{ "file": "dark.toml", "line": 1, "column": 2 }]));
     assert!(warnings[0]["hint"].is_string() && warnings[1].is_null(), "{warnings}");
     assert_eq!(place.run(&format!("{render} -q")).ends_with(0).stderr, "");
     place.run("render scene.toml -r 8x8 --spp 1 -o a.png --stats a.json").ends_with(0);

@@ -16,14 +16,16 @@ fn what_is_ignored_is_told_in_five_lines_or_wholly() {
     });
     let run = place.run(&format!("{RENDER} --stats a.json")).ends_with(0);
     let said: Vec<_> = run.stderr.lines().take(5).collect();
-    assert_eq!(said[0], "warning: the extension EXT_a is ignored");
+    assert_eq!(said[0], "warning: model.gltf: the extension EXT_a is ignored");
     assert_eq!(said[4], "and 2 more: -v shows them all", "{}", run.stderr);
     let stats = place.json("a.json");
     let told = stats["warnings"].as_array().unwrap();
     assert_eq!(told.len(), 6, "{told:?}");
     assert_eq!(
         told[1],
-        json!({ "message": "the extension EXT_b is ignored", "place": null, "hint": null, "count": 1 })
+        json!({
+            "message": "the extension EXT_b is ignored", "places": [{ "file": "model.gltf" }], "hint": null, "count": 1
+        })
     );
     for command in [&format!("{RENDER} -v"), "check model.gltf", "info model.gltf"] {
         let run = place.run(command).ends_with(0);

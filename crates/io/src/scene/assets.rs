@@ -142,7 +142,9 @@ impl From<Error> for Failure {
                 let at = match at {
                     At::File => String::new(),
                     At::Line(line) => format!(" (line {line})"),
+                    At::Character { line, column } => format!(" (line {line}, column {column})"),
                     At::Byte(byte) => format!(" (byte {byte})"),
+                    At::Part(part) => format!(" ({part})"),
                 };
                 Self { message: format!("is wrong: {message}{at}"), hint, kind: Kind::Wrong }
             }
@@ -184,7 +186,7 @@ impl<'a, F: Fn(&[String]) -> Option<&'a Path>> Loader<'_, F> {
         None
     }
 
-    /// Notes what could not be kept of a file.
+    /// Notes what could not be kept of a file, where the scene names it.
     pub(super) fn warn(&mut self, path: &[String], name: &str, warnings: Vec<Warning>) {
         self.notes.extend(warnings.into_iter().map(|Warning { message, hint, .. }| Note {
             path: path.to_vec(),

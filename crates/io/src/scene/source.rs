@@ -9,7 +9,7 @@ use std::path::{Component, Path, PathBuf};
 use toml::Spanned;
 use toml::de::{DeTable, DeValue};
 
-use crate::error::{Diagnostic, Error, Place};
+use crate::error::{At, Diagnostic, Error, Place};
 use crate::scene::model::Files;
 use crate::scene::nesting;
 use crate::warning::Warning;
@@ -220,7 +220,7 @@ impl Sources {
         let source = self.source(offset)?;
         let before = source.text.get(..offset - source.base).unwrap_or(&source.text);
         let (line, column) = line_and_column(before);
-        Some(Place { file: source.name.clone(), line, column })
+        Some(Place { file: source.name.clone(), at: At::Character { line, column } })
     }
 }
 
@@ -259,7 +259,7 @@ fn read_text(path: &Path) -> Result<String, Error> {
 /// What was read from a file as a text; none is too long.
 fn text_of(path: &Path, bytes: std::io::Result<Option<Vec<u8>>>) -> Result<String, Error> {
     let refuse = |message: String, (line, column), hint: &str| {
-        let place = Some(Place { file: path.display().to_string(), line, column });
+        let place = Some(Place { file: path.display().to_string(), at: At::Character { line, column } });
         let diagnostic = Diagnostic { message, place, hint: Some(hint.to_owned()), unreadable: false };
         Err(Error::Scene(vec![diagnostic]))
     };

@@ -3,6 +3,7 @@
 use std::time::{Duration, Instant};
 
 use eyebeam_core::film::Image;
+use eyebeam_core::texture::Samples;
 use eyebeam_io::image::{
     Encoding, ImageFormat, pixels_size, read_image, read_image_bytes, read_linear_bytes, read_pixels_bytes,
 };
@@ -10,7 +11,7 @@ use eyebeam_io::{Error, Warning};
 use proptest::prelude::*;
 
 use crate::corpus::corpus;
-use crate::flaw;
+use crate::{flaw, pictures};
 
 /// Whatever the bytes, soon.
 fn try_image(bytes: &[u8]) -> Option<Image> {
@@ -143,7 +144,28 @@ fn all_kinds_of_openexr() {
 }
 
 #[test]
+fn webp_with_losses() {
+    let (pixels, _) = read_pixels_bytes("a.webp", &pictures::lossy_webp()).unwrap();
+    assert_eq!((pixels.width(), pixels.height(), pixels.channels()), (8, 8, 4));
+    let Samples::Byte(bytes) = pixels.samples() else { panic!() };
+    let off = |i: usize, is: u8| {
+        let (x, y) = (i / 4 % 8, i / 4 / 8);
+        let was = [30 * x, 200, 20 * y, 255 - 16 * (x + y)][i % 4];
+        (is as i32 - was as i32).abs()
+    };
+    let errors: Vec<_> = bytes.iter().enumerate().map(|(i, &is)| off(i, is)).collect();
+    assert!(errors.iter().max().unwrap() <= &60, "{errors:?}");
+    assert!(errors.iter().sum::<i32>() <= 8 * 256, "{errors:?}");
+    assert!(errors.iter().skip(3).step_by(4).all(|&error| error == 0), "alpha has no losses: {errors:?}");
+}
+
+#[test]
 fn basis_universal_of_ktx2() {
+    let (pixels, _) = read_pixels_bytes("a.ktx2", &pictures::ktx2()).unwrap();
+    let Samples::Byte(bytes) = pixels.samples() else { panic!() };
+    let (one, other) = ([200, 100, 50], [30, 20, 10]);
+    assert_eq!((pixels.width(), pixels.height(), pixels.channels()), (5, 3, 3));
+    assert_eq!(bytes.as_chunks::<3>().0, [one, one, one, one, other].repeat(3));
     for path in corpus("gltf", &["ktx2"]) {
         let name = path.file_name().unwrap_or_default().to_string_lossy().into_owned();
         let expected = match name.as_str() {

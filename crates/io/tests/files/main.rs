@@ -4,6 +4,8 @@
 mod corpus;
 mod ies;
 mod images;
+#[path = "../shared/pictures.rs"]
+mod pictures;
 mod ply;
 
 use eyebeam_io::{At, Error, FileError};
@@ -16,6 +18,7 @@ fn flaw(error: Error, bytes: &[u8]) -> FileError {
         At::File => {}
         At::Line(line) => assert!((1..=bytes.len() + 1).contains(&line), "{flaw}"),
         At::Byte(byte) => assert!(byte <= bytes.len(), "{flaw}"),
+        At::Character { .. } | At::Part(_) => panic!("{flaw}"),
     }
     flaw
 }

@@ -55,14 +55,3 @@ pub(crate) fn webp() -> Vec<u8> {
     WebPEncoder::new_lossless(&mut bytes).encode(&pixels, 20, 7, ExtendedColorType::Rgba8).unwrap();
     bytes
 }
-
-/// 5 x 3 pixels in two blocks of UASTC, each of one colour.
-pub(crate) fn ktx2() -> Vec<u8> {
-    let words = |words: &[u32]| words.iter().flat_map(|w| w.to_le_bytes()).collect::<Vec<u8>>();
-    let header = words(&[0, 1, 5, 3, 0, 0, 1, 1, 0, 104, 44, 0, 0, 0, 0, 0, 0]);
-    let level = words(&[148, 0, 32, 0, 32, 0]);
-    let description = words(&[44, 0, 2 | 40 << 16, 166 | 1 << 8 | 2 << 16, 3 | 3 << 8, 16, 0, 127 << 16, 0, 0, 0]);
-    // Mode 8, five bits, and then a colour.
-    let block = |color: u128| (0x17 | color << 5).to_le_bytes();
-    [b"\xabKTX 20\xbb\r\n\x1a\n", &header[..], &level, &description, &block(0xff32_64c8), &block(0xff1e_140a)].concat()
-}

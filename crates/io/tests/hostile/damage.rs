@@ -85,7 +85,7 @@ fn vertices_without_numbers() {
 #[test]
 fn keys_that_end_within_a_word() {
     let _alone = alone();
-    let mut bytes = crate::codecs::ktx2();
+    let mut bytes = crate::pictures::ktx2();
     bytes.extend([5, 0, 0, 0, b'a', 0, b'b', b'c', b'd']);
     bytes[56..60].copy_from_slice(&180_u32.to_le_bytes());
     bytes[60..64].copy_from_slice(&9_u32.to_le_bytes());

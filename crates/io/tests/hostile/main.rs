@@ -9,6 +9,8 @@ mod damage;
 mod glb;
 mod memory;
 mod names;
+#[path = "../shared/pictures.rs"]
+mod pictures;
 mod samples;
 
 use std::alloc::{GlobalAlloc, Layout, System};

@@ -52,7 +52,8 @@ pub(crate) fn all() -> Vec<(String, Vec<u8>)> {
     all.push(("walk.glb".to_owned(), codecs::draco(1)));
     all.push(("list.glb".to_owned(), codecs::draco(0)));
     all.push(("picture.webp".to_owned(), codecs::webp()));
-    all.push(("picture.ktx2".to_owned(), codecs::ktx2()));
+    all.push(("lossy.webp".to_owned(), crate::pictures::lossy_webp()));
+    all.push(("picture.ktx2".to_owned(), crate::pictures::ktx2()));
     for (ending, format) in
         [("exr", ImageFormat::Exr), ("hdr", ImageFormat::Hdr), ("png", ImageFormat::Png), ("jpg", ImageFormat::Jpeg)]
     {

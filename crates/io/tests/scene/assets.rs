@@ -12,10 +12,10 @@ use eyebeam_core::light::EnvironmentDesc;
 use eyebeam_core::render::{Monitor, Render, Settings};
 use eyebeam_core::scene::Scene;
 use eyebeam_io::scene::{SceneFile, read, read_str};
-use eyebeam_io::{Error, Place};
+use eyebeam_io::{At, Error, Place};
 use tempfile::TempDir;
 
-use crate::{places, problems, setting, unmark};
+use crate::{character, places, problems, setting, unmark};
 
 /// A ball of eight triangles with normals, and the same in the words of a scene.
 const PLY: &str = "ply\nformat ascii 1.0\nelement vertex 6\nproperty float x\nproperty float y\nproperty float z
@@ -265,7 +265,7 @@ material = \"lamp\"
 ";
     let (text, expected) = unmark(marked);
     let warnings = read_in(&folder, &text).unwrap().warnings;
-    let found = warnings.iter().map(|w| w.place.as_ref().map(|Place { line, column, .. }| (*line, *column)).unwrap());
+    let found = warnings.iter().map(|w| character(w.place.as_ref().unwrap()));
     let said = warnings.iter().map(|w| format!("{w}\n")).collect::<String>();
     assert_eq!(found.collect::<Vec<_>>(), expected, "{said}");
     insta::assert_snapshot!(said.replace(folder.path().to_str().unwrap(), "FOLDER"));
@@ -273,7 +273,11 @@ material = \"lamp\"
     let dark = read_str("a.toml", "[environment.none]\n[[shape.sphere]]\nradius = 1", &[]).unwrap().warnings;
     assert!(dark[0].to_string().starts_with("warning: nothing shines: the picture will be black\n"), "{dark:?}");
     let night = read_str("a.toml", "[environment.sky]\nsun_elevation = -30", &[]).unwrap().warnings;
-    assert_eq!(night[0].place, Some(Place { file: "a.toml".to_owned(), line: 1, column: 1 }), "{night:?}");
+    assert_eq!(
+        night[0].place,
+        Some(Place { file: "a.toml".to_owned(), at: At::Character { line: 1, column: 1 } }),
+        "{night:?}"
+    );
 }
 
 #[test]

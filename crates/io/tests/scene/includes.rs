@@ -6,7 +6,7 @@ use std::path::Path;
 use eyebeam_io::scene::read;
 use tempfile::TempDir;
 
-use crate::{problems, setting, unmark};
+use crate::{character, problems, setting, unmark};
 
 /// A folder with these files; marks in them are left out.
 fn folder(files: &[(&str, &str)]) -> TempDir {
@@ -56,11 +56,11 @@ fn mistakes_name_their_file() {
     let found: Vec<_> = problems(error).into_iter().map(|p| p.place.unwrap()).collect();
     for (name, text) in files {
         let file = folder.path().join(name).display().to_string();
-        let here: Vec<_> = found.iter().filter(|p| p.file == file).map(|p| (p.line, p.column)).collect();
+        let here: Vec<_> = found.iter().filter(|p| p.file == file).map(character).collect();
         assert_eq!(here, unmark(text).1, "{name}");
     }
     let last = found.last().unwrap();
-    assert_eq!((last.file.as_str(), last.column), ("-D", 13));
+    assert_eq!((last.file.as_str(), character(last).1), ("-D", 13));
 }
 
 #[test]

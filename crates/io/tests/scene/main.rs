@@ -5,6 +5,8 @@ mod errors;
 mod files;
 mod includes;
 mod models;
+#[path = "../shared/pictures.rs"]
+mod pictures;
 mod robustness;
 mod schema;
 mod settings;
@@ -12,7 +14,7 @@ mod textures;
 mod write;
 
 use eyebeam_io::scene::{Override, read_str};
-use eyebeam_io::{Diagnostic, Error};
+use eyebeam_io::{At, Diagnostic, Error, Place};
 
 /// Stands in a test's scene before each thing that is wrong.
 const MARK: char = '▸';
@@ -40,7 +42,15 @@ fn problems(error: Error) -> Vec<Diagnostic> {
 
 /// Lines and columns of what is wrong.
 fn places(problems: &[Diagnostic]) -> Vec<(usize, usize)> {
-    problems.iter().map(|p| p.place.as_ref().map_or((0, 0), |place| (place.line, place.column))).collect()
+    problems.iter().map(|p| p.place.as_ref().map_or((0, 0), character)).collect()
+}
+
+/// The line and the column of a place.
+fn character(place: &Place) -> (usize, usize) {
+    match place.at {
+        At::Character { line, column } => (line, column),
+        _ => panic!("{place}"),
+    }
 }
 
 fn setting(text: &str) -> Override {

@@ -41,7 +41,12 @@ pub fn read_image(path: &Path) -> Result<(Image, Vec<Warning>), Error> {
 pub fn read_image_bytes(name: &str, bytes: &[u8]) -> Result<(Image, Vec<Warning>), Error> {
     let (mut image, mut warnings) = decode(bytes).map_err(|e| e.of(name))?;
     warnings.extend(repair_image(&mut image));
-    Ok((image, warnings))
+    Ok((image, of(name, warnings)))
+}
+
+/// Those of a file.
+fn of(name: &str, warnings: Vec<Warning>) -> Vec<Warning> {
+    warnings.into_iter().map(|warning| warning.of(name)).collect()
 }
 
 /// A picture of linear light, as a renderer wrote it.
@@ -72,7 +77,7 @@ pub fn read_linear(path: &Path) -> Result<LinearPicture, Error> {
 pub fn read_linear_bytes(name: &str, bytes: &[u8]) -> Result<LinearPicture, Error> {
     let mut picture = decode_linear(bytes).map_err(|e| e.of(name))?;
     picture.warnings.extend(repair_image(&mut picture.image));
-    Ok(picture)
+    Ok(LinearPicture { warnings: of(name, picture.warnings), ..picture })
 }
 
 fn repair_image(image: &mut Image) -> Option<Warning> {

@@ -6,7 +6,7 @@ use eyebeam_core::texture::{Pixels, Samples};
 
 use crate::error::{Error, FileError};
 use crate::file;
-use crate::image::read::{Format, LINEAR, exr, hdr, ktx2, repair_image, signals};
+use crate::image::read::{Format, LINEAR, exr, hdr, ktx2, of, repair_image, signals};
 use crate::warning::Warning;
 
 /// Reads a picture as it is in the file, but for alpha that is 1 everywhere and colours that are all grey, and says what could
@@ -23,7 +23,8 @@ pub fn read_pixels(path: &Path) -> Result<(Pixels, Vec<Warning>), Error> {
 /// # Errors
 /// If the bytes are damaged, or the picture is too large.
 pub fn read_pixels_bytes(name: &str, bytes: &[u8]) -> Result<(Pixels, Vec<Warning>), Error> {
-    decode(bytes).map_err(|e| e.of(name))
+    let (pixels, warnings) = decode(bytes).map_err(|e| e.of(name))?;
+    Ok((pixels, of(name, warnings)))
 }
 
 /// About the memory that [`read_pixels_bytes`] needs for the picture: what its header says, before anything is decoded.

@@ -138,6 +138,7 @@ pub(super) fn read(format: &ModelFormat, input: &Input<'_>, options: &ReadOption
     }
     let problems = desc.check();
     if problems.is_empty() {
+        let warnings = warnings.into_iter().map(|warning| warning.of(&input.name)).collect();
         return Ok(SceneFile { desc, warnings, given, contents, memory: memory.taken() });
     }
     let diagnostic = |message, hint| Diagnostic {

@@ -1,5 +1,6 @@
 //! What a text has that is not read: told once for each kind.
 
+use crate::error::At;
 use crate::warning::Warning;
 
 /// Kinds that are told of; the rest is only counted.
@@ -20,7 +21,7 @@ struct Kind {
 }
 
 impl Skipped {
-    /// Notes one in a line; `what` goes on with "in line 7".
+    /// Notes one in a line.
     pub(super) fn note(&mut self, what: &str, line: usize) {
         if let Some(kind) = self.kinds.iter_mut().find(|kind| kind.what == what) {
             kind.count += 1;
@@ -31,16 +32,15 @@ impl Skipped {
         }
     }
 
-    /// What there is to say; `file` stands before each.
+    /// What there is to say, each of the line where it was first met.
     pub(super) fn warnings(self, file: &str) -> Vec<Warning> {
         let told = |Kind { what, count, first }: Kind| {
-            let place =
-                if count == 1 { format!("in line {first}") } else { format!("{count} times, first in line {first}") };
-            Warning::new(format!("`{file}`: {what} {place}"))
+            let what = if count == 1 { what } else { format!("{what} ({count} times)") };
+            Warning::new(what).at(At::Line(first)).of(file)
         };
         let mut warnings: Vec<_> = self.kinds.into_iter().map(told).collect();
         if self.others > 0 {
-            warnings.push(Warning::new(format!("`{file}`: {} more lines of other kinds are not read", self.others)));
+            warnings.push(Warning::new(format!("{} more lines of other kinds are not read", self.others)).of(file));
         }
         warnings
     }

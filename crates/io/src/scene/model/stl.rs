@@ -37,11 +37,12 @@ pub(super) fn read(input: &Input<'_>, _: &ReadOptions<'_>, memory: &Memory) -> R
         (Some(count), Some(expected)) if expected == length || (!says_solid && expected <= length) => {
             let colored = binary(&mut source, count, &mut mesh).map_err(|e| e.or_read(input))?;
             if colored > 0 {
-                model.warnings.push(Warning::new(format!("`{name}`: the colours of {colored} triangles are not read")));
+                model.warnings.push(Warning::new(format!("the colours of {colored} triangles are not read")));
             }
             if expected < length {
                 let rest = length - expected;
-                model.warnings.push(Warning::new(format!("`{name}`: {rest} bytes after the triangles are not read")));
+                let warning = Warning::new(format!("{rest} bytes after the triangles are not read"));
+                model.warnings.push(warning.at(At::Byte(expected as usize)));
             }
         }
         _ if says_solid => text(input, &mut mesh, &mut model.warnings)?,

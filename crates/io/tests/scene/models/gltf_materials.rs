@@ -8,9 +8,10 @@ use eyebeam_core::material::{MaterialDesc, Principled};
 use eyebeam_core::setup::Given;
 use eyebeam_core::texture::{Color, Interpolation, Mapping, Scalar, Space, TextureDesc};
 use eyebeam_io::scene::{ReadOptions, SceneFile};
+use eyebeam_io::{At, Warning};
 use serde_json::{Value, json};
 
-use super::gltf::{flip, glb, mesh, model, picture, principled, read_as, with, with_picture};
+use super::gltf::{error, flip, glb, mesh, model, picture, principled, read_as, with, with_picture};
 
 const ATTRIBUTES: &str = "/meshes/0/primitives/0/attributes";
 
@@ -126,6 +127,47 @@ fn anisotropy_is_a_stretched_and_turned_highlight() {
     );
 }
 
+/// 20 over Abbe's number, of what has an inside.
+#[test]
+fn volumes_disperse() {
+    let glass = |dispersion: f32, thickness: f32| {
+        let extensions = json!({
+            "KHR_materials_transmission": { "transmissionFactor": 1 },
+            "KHR_materials_volume": { "thicknessFactor": thickness },
+            "KHR_materials_dispersion": { "dispersion": dispersion },
+        });
+        let file = model(&with(&[
+            ("/extensionsUsed", json!(extensions.as_object().unwrap().keys().collect::<Vec<_>>())),
+            ("/materials/0", json!({ "name": "paint", "extensions": extensions })),
+        ]));
+        assert_eq!(file.warnings, []);
+        let p = principled(&file);
+        p.transmission_dispersion_scale / p.transmission_dispersion_abbe_number
+    };
+    for (dispersion, thickness, expected) in
+        [(0.1, 1.0, 0.005), (1.0, 1.0, 0.05), (4.0, 1.0, 0.2), (0.5, 0.0, 0.0), (1e9, 1.0, 1.0), (-1.0, 1.0, 0.0)]
+    {
+        assert!((glass(dispersion, thickness) - expected).abs() < 1e-6, "{dispersion} in {thickness}");
+    }
+}
+
+/// Of a material, an extension that makes no sense is told of; elsewhere it is an error.
+#[test]
+fn extensions_that_make_no_sense() {
+    for name in ["KHR_materials_clearcoat", "KHR_materials_anisotropy", "KHR_materials_unlit"] {
+        let file = model(&with(&[painted(name, json!({ "clearcoatFactor": "much", "anisotropyStrength": [] }))]));
+        let said = file.warnings.iter().map(ToString::to_string).collect::<String>();
+        let is_read = name == "KHR_materials_unlit";
+        assert_eq!(said.contains(&format!("{name} is ignored: invalid type")), !is_read, "{said}");
+        assert_eq!(said.contains("a.glb, material `paint`"), !is_read, "{said}");
+    }
+    let wrong = json!({ "attributes": 1, "light": "sun" });
+    for name in ["EXT_mesh_gpu_instancing", "KHR_lights_punctual"] {
+        let message = error(&with(&[("/nodes/0/extensions", json!({ name: wrong }))]));
+        assert!(message.starts_with(&format!("error: {name}: invalid type")), "{message}");
+    }
+}
+
 #[test]
 fn a_clear_coat_is_smooth_or_has_normals_of_its_own() {
     let coat = |more: Value, normal: Option<Value>| {
@@ -198,11 +240,14 @@ fn alphas_of_vertices_count_where_parts_can_be_missing() {
 }
 
 #[test]
-fn occlusion_is_told_of_once() {
+fn occlusion_is_told_of() {
     let paint = |name: &str| json!({ "name": name, "occlusionTexture": { "index": 0 } });
     let second = json!({ "attributes": { "POSITION": 1 }, "material": 1 });
     let file = model(&with(&[("/materials", json!([paint("paint"), paint("b")])), ("/meshes/0/primitives/1", second)]));
-    assert_eq!(file.warnings.iter().map(|w| &*w.message).collect::<Vec<_>>(), ["occlusion is computed, not read"]);
+    let said = |w: &Warning| (w.message.clone(), w.place.as_ref().unwrap().at.clone());
+    let expected = ["paint", "b"]
+        .map(|name| ("occlusion is computed, not read".to_owned(), At::Part(format!("material `{name}`"))));
+    assert_eq!(file.warnings.iter().map(said).collect::<Vec<_>>(), expected);
 }
 
 /// Of before metals: the reflectance straight on is that of an index, the gloss the opposite of the roughness.

@@ -10,7 +10,7 @@ use eyebeam_core::material::{MaterialDesc, Principled};
 use eyebeam_core::shape::MeshData;
 use eyebeam_core::texture::{Channel, Encoding, ImageTexture, TextureDesc};
 use eyebeam_io::scene::{SceneFile, read};
-use eyebeam_io::{At, Error};
+use eyebeam_io::{At, Error, Warning};
 use proptest::prelude::Rng as _;
 use proptest::test_runner::{RngAlgorithm, TestRng};
 use tempfile::TempDir;
@@ -42,16 +42,15 @@ fn meshes(desc: &SceneDesc) -> Vec<&MeshData> {
     desc.shape.mesh.iter().map(|mesh| mesh.data.as_deref().unwrap()).collect()
 }
 
-fn said(file: &SceneFile) -> Vec<&str> {
-    file.warnings
-        .iter()
-        .map(|w| {
-            w.message
-                .split_once(".obj`: ")
-                .or_else(|| w.message.split_once(".mtl`: "))
-                .map_or(&*w.message, |(_, what)| what)
-        })
-        .collect()
+/// What is told of, each after its line or its part.
+fn said(file: &SceneFile) -> Vec<String> {
+    let at = |w: &Warning| match &w.place.as_ref().unwrap().at {
+        At::Line(line) => format!("{line}: {}", w.message),
+        At::Part(part) => format!("{part}: {}", w.message),
+        At::File => w.message.clone(),
+        other => panic!("{other:?}"),
+    };
+    file.warnings.iter().map(at).collect()
 }
 
 /// The materials of a library of which each is used once.
@@ -129,7 +128,7 @@ fn colors_concave_faces_and_meshes_by_material() {
     assert_eq!((data.len(), data[0].triangles.len(), data[1].triangles.len()), (2, 2, 2));
     assert!(data[0].colors.contains(&[1.0; 3]) && data[0].colors.iter().any(|c| (c[2] - 0.2140).abs() < 1e-3));
     assert!(data[0].triangles.iter().all(|t| t.contains(&0) && t.contains(&2)), "{:?}", data[0].triangles);
-    assert_eq!(said(&file), ["there is no material `x y`: what has it is grey"]);
+    assert_eq!(said(&file), ["material `x y`: there is no such material: what has it is grey"]);
     assert!(file.desc.shape.mesh.iter().all(|mesh| mesh.material.as_deref() == Some("vertex-color")));
 }
 
@@ -139,10 +138,10 @@ fn what_is_not_read_is_said_once() {
     text.extend(b"o \xff\xfe\ng \xff\n");
     let file = try_model(text, &[]).unwrap();
     let expected = [
-        "`l` is not read 2 times, first in line 5",
-        "`p` is not read in line 7",
-        "`foo` is not read in line 8",
-        "a face of fewer than three corners is dropped 2 times, first in line 9",
+        "5: `l` is not read (2 times)",
+        "7: `p` is not read",
+        "8: `foo` is not read",
+        "9: a face of fewer than three corners is dropped (2 times)",
     ];
     assert_eq!(said(&file), expected);
 }
@@ -172,7 +171,7 @@ fn what_is_wrong_has_its_line() {
     }
     let file = model(&format!("{SQUARE}f 1/1/1 2/2/2 3/3/3\n"));
     assert_eq!(meshes(&file.desc)[0].normals.len() + meshes(&file.desc)[0].uvs.len(), 0);
-    assert!(said(&file)[1].starts_with("a face with a `vn`, of which there is none, goes without 3 times"));
+    assert!(said(&file)[1].ends_with(": a face with a `vn`, of which there is none, goes without (3 times)"));
     let long = try_model(format!("{SQUARE}# {}\nf 1 2 3", "x".repeat(1 << 20)), &[]).unwrap_err();
     assert!(long.to_string().contains("the line is longer than 1048576 bytes"), "{long}");
     assert!(try_model("", &[]).unwrap_err().to_string().contains("the file has no faces"));
@@ -187,7 +186,7 @@ fn materials_become_layers() {
          newmtl glass\nd 0.1\nNi 1.6\nTf 0.5 0.9 0.9\nillum 7\n\
          newmtl thin\nTr 0.75\nKd 1 1 1\n\
          newmtl lamp\nKe 2 4 8\nd 0.5\n\
-         newmtl pbr\nKd 1 1 1\nKs 0 0 0\nPr 0.2\nPm 0.3\nPs 0.4\nPc 0.5\nPcr 0.6\naniso 0.7\nanisor 0.8\nNs x\n",
+         newmtl pbr\nKd 1 1 1\nKs 0 0 0\nPr 0.2\nPm 0.3\nPs 0.4\nPc 0.5\nPcr 0.6\naniso 0.7\nanisor 0.75\nNs x\n",
         &[],
     );
     let number = |scalar: &eyebeam_core::texture::Scalar| scalar.number().unwrap();
@@ -212,13 +211,13 @@ fn materials_become_layers() {
     let parts = [&pbr.specular_roughness, &pbr.base_metalness, &pbr.fuzz_weight, &pbr.coat_weight, &pbr.coat_roughness];
     assert_eq!(parts.map(number), [0.2, 0.3, 0.4, 0.5, 0.6]);
     assert_eq!((number(&pbr.specular_weight), number(&pbr.specular_roughness_anisotropy)), (1.0, 0.7));
+    assert_eq!(pbr.specular_rotation, 0.75 * 360.0);
     assert_eq!(
         said(&file),
         [
-            "`foo` is not read in line 5",
-            "`anisor` is not read in line 37",
-            "`Ns` is not read in line 38",
-            "the material `lamp` shines: its relief and holes are not kept"
+            "5: `foo` is not read",
+            "38: `Ns` is not read",
+            "material `lamp`: it shines: its relief and holes are not kept"
         ]
     );
 }
@@ -246,10 +245,10 @@ fn pictures_are_loaded_with_their_options() {
     );
     let said = said(&file).join("\n");
     for part in [
-        "option `-mm` is not read in line 3",
-        "`map_Ns` is not read in line 7",
-        "picture `missing.png` is not read",
-        "picture `l.mtl` is not read",
+        "3: the option `-mm` is not read",
+        "7: `map_Ns` is not read",
+        "the picture `missing.png` is not read",
+        "the picture `l.mtl` is not read",
     ] {
         assert!(said.contains(part), "{part}: {said}");
     }
@@ -274,7 +273,7 @@ fn amounts_are_parts_of_pictures() {
     assert!(takes_alpha("rough pr") && !takes_alpha("rough pm"));
     let TextureDesc::Channel(part) = &file.desc.texture["green d channel"] else { panic!() };
     assert_eq!(part.channel, Channel::Green);
-    assert_eq!(said(&file), ["the option `-imfchan` is not read in line 8"]);
+    assert_eq!(said(&file), ["8: the option `-imfchan` is not read"]);
 }
 
 #[test]
@@ -284,7 +283,7 @@ fn ambient_light_is_told_of_if_it_means_something() {
          newmtl e\nKa 0.3 0.4 0.5\nKd 1 1 1\n",
         &[],
     );
-    assert_eq!(said(&file), ["`Ka` is not read in line 11"]);
+    assert_eq!(said(&file), ["11: `Ka` is not read"]);
 }
 
 #[test]
@@ -316,7 +315,7 @@ fn libraries_have_spaces_and_neighbours() {
     let file = try_model(obj, files).unwrap();
     assert_eq!(principled(&file, "m").base_color.rgb().unwrap().0, [1.0, 0.0, 0.0]);
     assert_eq!(principled(&file, "n").base_color.rgb().unwrap().0, [0.0, 1.0, 0.0]);
-    assert!(file.warnings.len() == 1 && file.warnings[0].message.starts_with("`none.mtl` is not read"));
+    assert!(file.warnings.len() == 1 && file.warnings[0].to_string().contains("`none.mtl`"));
 }
 
 const OBJ: &str = "mtllib l.mtl\nv 0 0 0\nv 1 0 0 1 0 0\nv 1 1 0\nv 0 1e0 0\nvt 0 0\nvn 0 0 1\ns 1\nusemtl a\nf 1/1/1 2/1/1 3/1/1\nf -4 \\\n-3 -2 -1\nl 1 2\n";

@@ -27,10 +27,11 @@ pub(super) struct Bytes {
 impl Bytes {
     /// Decodes all buffer views that are compressed, and all meshes in them.
     pub(super) fn new(document: &Document, buffers: Vec<Vec<u8>>, memory: &Memory) -> Result<Self, FileError> {
-        let compressed =
-            document.buffer_views.iter().enumerate().filter_map(|(index, view)| {
-                Some((index, get::<Compressed>(&view.extensions, "EXT_meshopt_compression")?))
-            });
+        let mut compressed = Vec::new();
+        for (index, view) in document.buffer_views.iter().enumerate() {
+            let part: Option<Compressed> = get(&view.extensions, "EXT_meshopt_compression")?;
+            compressed.extend(part.map(|part| (index, part)));
+        }
         let mut left = buffers.iter().map(Vec::len).sum::<usize>();
         let decode = |(index, part): (usize, Compressed)| {
             // What is told once is not decoded many times.
@@ -44,7 +45,7 @@ impl Bytes {
             let of = |e: FileError| FileError { message: format!("buffer view {index}: {}", e.message), ..e };
             Ok((index, decoded.map_err(of)?))
         };
-        let decoded = compressed.map(decode).collect::<Result<_, FileError>>()?;
+        let decoded = compressed.into_iter().map(decode).collect::<Result<_, FileError>>()?;
         let bytes = Self { buffers, decoded, streams: BTreeMap::new() };
         let streams = draco::decode(&Buffers { document, bytes: &bytes, memory })?;
         Ok(Self { streams, ..bytes })

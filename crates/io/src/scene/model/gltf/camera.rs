@@ -15,7 +15,10 @@ pub(super) fn read(document: &Document, node: &Node, to_world: &DAffine3, model:
     let Some(index) = node.camera else { return };
     match find(document, index, node, to_world) {
         Ok(camera) => model.contents.cameras.push(camera),
-        Err(e) => model.warnings.push(Warning::new(format!("a camera is left out: {}", e.message))),
+        Err(e) => {
+            let warning = Warning::new(format!("the camera is left out: {}", e.message));
+            model.warnings.push(warning.part(format!("camera {index}")));
+        }
     }
 }
 

@@ -7,7 +7,6 @@ use eyebeam_core::color::Rgb;
 use eyebeam_core::material::Principled;
 use eyebeam_core::texture::{Channel, Color, Encoding, Interpolation, Mapping, Scalar};
 
-use crate::scene::model::gltf::document::Material;
 use crate::scene::model::gltf::extensions::{Anisotropy, Clearcoat, get};
 use crate::scene::model::gltf::material::{Maker, Materials, bounded};
 use crate::scene::model::gltf::texture;
@@ -22,24 +21,25 @@ impl Materials<'_> {
         if let Some(info) = &material.normal_texture {
             return Some(texture::mapping(info));
         }
-        let coat: Option<Clearcoat> = get(&material.extensions, "KHR_materials_clearcoat");
-        if let Some(info) = coat.and_then(|coat| coat.clearcoat_normal_texture) {
+        // Of what makes no sense there is a warning where the material is made.
+        let coat = get(&material.extensions, CLEARCOAT).unwrap_or_default();
+        if let Some(info) = coat.and_then(|coat: Clearcoat| coat.clearcoat_normal_texture) {
             return Some(texture::mapping(&info));
         }
-        let long = anisotropy(material)?;
-        Some(long.anisotropy_texture.as_ref().map(texture::mapping).unwrap_or_default())
+        let long: Anisotropy = get(&material.extensions, ANISOTROPY).unwrap_or_default()?;
+        let info = long.anisotropy_texture.as_ref();
+        (long.anisotropy_strength > 0.0).then(|| info.map(texture::mapping).unwrap_or_default())
     }
 }
 
-/// Of a material that has any.
-fn anisotropy(material: &Material) -> Option<Anisotropy> {
-    get(&material.extensions, "KHR_materials_anisotropy").filter(|a: &Anisotropy| a.anisotropy_strength > 0.0)
-}
+pub(super) const CLEARCOAT: &str = "KHR_materials_clearcoat";
+const ANISOTROPY: &str = "KHR_materials_anisotropy";
 
 impl Maker<'_, '_> {
     /// Highlights that are long in one direction.
     pub(super) fn anisotropy(&mut self, p: &mut Principled) {
-        let Some(long) = anisotropy(self.material) else { return };
+        let long: Option<Anisotropy> = self.extension(ANISOTROPY);
+        let Some(long) = long.filter(|long| long.anisotropy_strength > 0.0) else { return };
         let info = long.anisotropy_texture.as_ref();
         let strength = self.channel(info, Channel::Blue, long.anisotropy_strength, "anisotropy");
         [p.specular_roughness, p.specular_roughness_anisotropy] = match (p.specular_roughness.clone(), strength) {

@@ -13,6 +13,7 @@ use serde::Deserialize;
 use crate::error::FileError;
 use crate::scene::model::gltf::accessor::{Buffers, Component, element};
 use crate::scene::model::gltf::document::Primitive;
+use crate::scene::model::gltf::extensions::get;
 
 /// Triangles of all compressed meshes of a file. To decode one takes some 70 bytes besides its vertices.
 const MOST_TRIANGLES: usize = 1 << 25;
@@ -38,9 +39,7 @@ impl Compressed {
     /// None if the primitive is not compressed.
     pub(super) fn of(primitive: &Primitive) -> Result<Option<Self>, FileError> {
         const NAME: &str = "KHR_draco_mesh_compression";
-        let Some(value) = primitive.extensions.get(NAME) else { return Ok(None) };
-        let compressed = Self::deserialize(value);
-        compressed.map(Some).map_err(|e| FileError::new(format!("the extension {NAME} of a mesh makes no sense: {e}")))
+        get(&primitive.extensions, NAME)
     }
 }
 

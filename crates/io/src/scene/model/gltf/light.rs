@@ -5,6 +5,7 @@
 use eyebeam_core::color::{LUMENS_PER_WATT, Rgb};
 use eyebeam_core::light::{DirectionalLight, PointLight, SpotLight};
 use glam::{DAffine3, DVec3};
+use serde::Deserialize;
 
 use crate::error::FileError;
 use crate::scene::model::Model;
@@ -15,8 +16,14 @@ use crate::scene::model::gltf::extensions::get;
 const NAME: &str = "KHR_lights_punctual";
 
 /// Those of a file.
-pub(super) fn all(document: &Document) -> PunctualLights {
-    get(&document.extensions, NAME).unwrap_or_default()
+pub(super) fn all(document: &Document) -> Result<PunctualLights, FileError> {
+    Ok(get(&document.extensions, NAME)?.unwrap_or_default())
+}
+
+/// What a node says.
+#[derive(Debug, Deserialize)]
+struct Reference {
+    light: usize,
 }
 
 /// Adds that of a node.
@@ -26,8 +33,7 @@ pub(super) fn read(
     to_world: &DAffine3,
     model: &mut Model,
 ) -> Result<(), FileError> {
-    let index = node.extensions.get(NAME).and_then(|extension| extension.get("light")?.as_u64());
-    let Some(index) = index.map(|index| index as usize) else { return Ok(()) };
+    let Some(Reference { light: index }) = get(&node.extensions, NAME)? else { return Ok(()) };
     let light = lights.lights.get(index).ok_or_else(|| missing("light", index))?;
     let intensity = light.intensity.unwrap_or(1.0) / LUMENS_PER_WATT;
     let amount = Rgb(light.color.unwrap_or([1.0; 3]).map(|c| c * intensity));

@@ -75,11 +75,11 @@ fn read_bytes(
         scenes: document.scenes.iter().map(|scene| scene.name.clone()).collect(),
         scene: Some(scene).filter(|&scene| scene < document.scenes.len()),
         animations: animation::all(&buffers),
-        variants: variants::names(&document),
+        variants: variants::names(&document)?,
         ..Contents::default()
     };
     plan::check(&buffers, &placed)?;
-    let lights = light::all(&document);
+    let lights = light::all(&document)?;
     for &(index, to_world) in &placed {
         let Some(node) = document.nodes.get(index) else { continue };
         camera::read(&document, node, &to_world, &mut model);
@@ -100,8 +100,7 @@ fn scene(document: &Document, wanted: Option<&str>, warnings: &mut Vec<Warning>)
     if document.scenes.len() > 1 {
         let other = usize::from(scene == 0);
         let message = format!("of {} scenes number {scene} is read alone", document.scenes.len());
-        let hint = Some(format!("`--scene {other}` reads another"));
-        warnings.push(Warning { hint, ..Warning::new(message) });
+        warnings.push(Warning::new(message).hint(format!("`--scene {other}` reads another")));
     }
     Ok(scene)
 }
@@ -118,8 +117,7 @@ fn pose(
         if let [first, ..] = &document.animations[..] {
             let count = document.animations.len();
             let message = format!("of {count} animations none is chosen: all is as it rests");
-            let hint = Some(format!("`--animation \"{}\" --at 0.5` poses it", first.name));
-            warnings.push(Warning { hint, ..Warning::new(message) });
+            warnings.push(Warning::new(message).hint(format!("`--animation \"{}\" --at 0.5` poses it", first.name)));
         }
         return Ok(());
     };

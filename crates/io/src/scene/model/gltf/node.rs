@@ -63,25 +63,27 @@ fn transform(translation: [f64; 3], rotation: [f64; 4], scale: [f64; 3]) -> DAff
 }
 
 /// How many copies of a node's mesh there are, if that is said.
-pub(super) fn copy_count(document: &Document, node: &Node) -> Option<usize> {
-    let Instancing { attributes } = get(&node.extensions, INSTANCING)?;
-    let names = ["TRANSLATION", "ROTATION", "SCALE"];
-    let accessors = names.iter().filter_map(|name| document.accessors.get(*attributes.get(*name)?));
-    Some(accessors.map(|accessor| accessor.count).min().unwrap_or_default())
+pub(super) fn copy_count(document: &Document, node: &Node) -> Result<Option<usize>, FileError> {
+    let count = |Instancing { attributes }| {
+        let names = ["TRANSLATION", "ROTATION", "SCALE"];
+        let accessors = names.iter().filter_map(|name| document.accessors.get(*attributes.get(*name)?));
+        accessors.map(|accessor| accessor.count).min().unwrap_or_default()
+    };
+    Ok(get(&node.extensions, INSTANCING)?.map(count))
 }
 
 const INSTANCING: &str = "EXT_mesh_gpu_instancing";
 
 /// Where the copies of a node's mesh are in its space: `EXT_mesh_gpu_instancing`; one that rests if there is no such thing.
 pub(super) fn copies(buffers: &Buffers<'_>, node: &Node) -> Result<Vec<DAffine3>, FileError> {
-    let Some(Instancing { attributes }) = get(&node.extensions, INSTANCING) else {
+    let Some(Instancing { attributes }) = get(&node.extensions, INSTANCING)? else {
         return Ok(vec![DAffine3::IDENTITY]);
     };
     let [moves, scales] = [("TRANSLATION", 0.0), ("SCALE", 1.0)]
         .map(|(name, rest)| attributes.get(name).map(|&i| buffers.floats::<3>(i, rest)).transpose());
     let (moves, scales) = (moves?, scales?);
     let turns = attributes.get("ROTATION").map(|&i| buffers.floats::<4>(i, 0.0)).transpose()?;
-    let count = copy_count(buffers.document, node).unwrap_or_default();
+    let count = copy_count(buffers.document, node)?.unwrap_or_default();
     let copy = |i: usize| {
         let vector =
             |list: &Option<Vec<[f32; 3]>>, rest| list.as_ref().and_then(|l| l.get(i)).copied().unwrap_or([rest; 3]);

@@ -26,7 +26,7 @@ pub(super) fn check(buffers: &Buffers<'_>, placed: &[(usize, DAffine3)]) -> Resu
     let (mut copies_of, mut posed) = (BTreeMap::<usize, u64>::new(), Vec::new());
     for node in placed.iter().filter_map(|(index, _)| document.nodes.get(*index)) {
         let Some(mesh) = node.mesh else { continue };
-        let copies = node::copy_count(document, node).unwrap_or(1) as u64;
+        let copies = node::copy_count(document, node)?.unwrap_or(1) as u64;
         if shapes::is_plain(node) {
             let all = copies_of.entry(mesh).or_default();
             *all = all.saturating_add(copies);

@@ -42,11 +42,11 @@ pub(super) fn read(
     model: &mut Model,
 ) -> Result<(), FileError> {
     let groups = groups(buffers, placed)?;
-    let mut skipped = 0;
     for (group, primitive) in groups.iter().flat_map(|group| group.mesh.primitives.iter().map(move |p| (group, p))) {
         let joints = group.joints.as_deref().filter(|_| primitive.attributes.contains_key("JOINTS_0"));
         let Some(mut data) = mesh::read(buffers, primitive, group.weights, joints)? else {
-            skipped += 1;
+            let warning = Warning::new("points and lines are left out");
+            model.warnings.push(warning.part(format!("node {}", group.node)));
             continue;
         };
         let default = Material::default();
@@ -80,9 +80,6 @@ pub(super) fn read(
             mesh::place(&mut data, place);
             meshes.push(mesh(data, Vec::new()));
         }
-    }
-    if skipped > 0 {
-        model.warnings.push(Warning::new(format!("{skipped} sets of points or lines are left out")));
     }
     Ok(())
 }

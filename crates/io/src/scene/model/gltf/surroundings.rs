@@ -18,6 +18,7 @@ use crate::scene::model::files::Files;
 use crate::scene::model::gltf::accessor::{Buffers, missing};
 use crate::scene::model::gltf::extensions::get;
 use crate::scene::model::gltf::texture;
+use crate::warning::Warning;
 
 const NAME: &str = "EXT_lights_image_based";
 
@@ -44,9 +45,9 @@ struct Named {
 /// The surroundings of the scene that is shown, if it has any.
 pub(super) fn read(buffers: &Buffers<'_>, scene: usize, files: Files<'_>, model: &mut Model) -> Result<(), FileError> {
     let document = buffers.document;
-    let scene = document.scenes.get(scene);
-    let Some(Named { light: index }) = scene.and_then(|scene| get(&scene.extensions, NAME)) else { return Ok(()) };
-    let Lights { lights } = get(&document.extensions, NAME).unwrap_or_default();
+    let Some(scene) = document.scenes.get(scene) else { return Ok(()) };
+    let Some(Named { light: index }) = get(&scene.extensions, NAME)? else { return Ok(()) };
+    let Lights { lights } = get(&document.extensions, NAME)?.unwrap_or_default();
     let light = lights.get(index).ok_or_else(|| missing("image-based light", index))?;
     let sides: &[usize; 6] = light
         .specular_images
@@ -56,7 +57,7 @@ pub(super) fn read(buffers: &Buffers<'_>, scene: usize, files: Files<'_>, model:
     let mut cube = Vec::new();
     for &side in sides {
         cube.push(
-            picture(buffers, files, side).map_err(|e| FileError {
+            picture(buffers, files, side, &mut model.warnings).map_err(|e| FileError {
                 message: format!("picture {side} of the surroundings: {}", e.message),
                 ..e
             })?,
@@ -76,11 +77,17 @@ pub(super) fn read(buffers: &Buffers<'_>, scene: usize, files: Files<'_>, model:
 }
 
 /// Linear light.
-fn picture(buffers: &Buffers<'_>, files: Files<'_>, index: usize) -> Result<Image, FileError> {
+fn picture(
+    buffers: &Buffers<'_>,
+    files: Files<'_>,
+    index: usize,
+    warnings: &mut Vec<Warning>,
+) -> Result<Image, FileError> {
     let bytes = texture::bytes(buffers, files, index)?;
     // As it is, as light, and as a part of the panorama.
     buffers.memory.take(3 * image_size("", &bytes)?)?;
-    let (pixels, _) = read_pixels_bytes("", &bytes)?;
+    let (pixels, more) = read_pixels_bytes("", &bytes)?;
+    warnings.extend(more.into_iter().map(|warning| warning.part(texture::part(index))));
     let mut image = pixels.to_image();
     let channels = pixels.channels();
     let last = |i: usize| i * channels + channels - 1;

@@ -50,13 +50,12 @@ impl Pictures {
         for (index, picture) in decoded {
             match picture {
                 Ok((pixels, more)) => {
-                    let of = |w: Warning| Warning { message: format!("picture {index}: {}", w.message), ..w };
-                    warnings.extend(more.into_iter().map(of));
+                    warnings.extend(more.into_iter().map(|warning| warning.part(part(index))));
                     pictures.insert(index, Arc::new(pixels));
                 }
                 Err(e) => warnings.push(Warning {
                     hint: e.hint,
-                    ..Warning::new(format!("picture {index} is left out: {}", e.message))
+                    ..Warning::new(format!("the picture is left out: {}", e.message)).part(part(index))
                 }),
             }
         }
@@ -78,8 +77,8 @@ impl Pictures {
     ) -> Option<ImageTexture> {
         let texture = document.textures.get(info.index)?;
         let Some(index) = texture.picture() else {
-            warnings
-                .push(Warning::new(format!("texture {} is left out: it has no picture of a known format", info.index)));
+            let warning = Warning::new("the texture is left out: it has no picture of a known format");
+            warnings.push(warning.part(format!("texture {}", info.index)));
             return None;
         };
         let pixels = self.0.get(&index)?;
@@ -98,12 +97,16 @@ impl Pictures {
         image.mapping = mapping(info);
         let set = set(info);
         if set > 1 {
-            let message = format!("texture {} lies as TEXCOORD_0 says, not as TEXCOORD_{set} does", info.index);
-            let hint = Some("two sets of coordinates are read".to_owned());
-            warnings.push(Warning { hint, ..Warning::new(message) });
+            let warning = Warning::new(format!("the texture lies as TEXCOORD_0 says, not as TEXCOORD_{set} does"));
+            warnings.push(warning.part(format!("texture {}", info.index)).hint("two sets of coordinates are read"));
         }
         Some(image)
     }
+}
+
+/// How warnings name a picture.
+pub(super) fn part(picture: usize) -> String {
+    format!("picture {picture}")
 }
 
 const NEAREST: u32 = 9728;

@@ -35,9 +35,9 @@ struct Mapping {
 }
 
 /// Names of all variants.
-pub(super) fn names(document: &Document) -> Vec<String> {
-    let Variants { variants } = get(&document.extensions, NAME).unwrap_or_default();
-    variants.into_iter().map(|variant| variant.name).collect()
+pub(super) fn names(document: &Document) -> Result<Vec<String>, FileError> {
+    let Variants { variants } = get(&document.extensions, NAME)?.unwrap_or_default();
+    Ok(variants.into_iter().map(|variant| variant.name).collect())
 }
 
 /// Gives meshes the materials of a variant, by its name or its number.
@@ -45,9 +45,9 @@ pub(super) fn names(document: &Document) -> Vec<String> {
 /// # Errors
 /// If there is none; they are listed.
 pub(super) fn apply(document: &mut Document, wanted: &str) -> Result<(), FileError> {
-    let chosen = choose("variant", wanted, names(document).iter().map(String::as_str))?;
+    let chosen = choose("variant", wanted, names(document)?.iter().map(String::as_str))?;
     for primitive in document.meshes.iter_mut().flat_map(|mesh| &mut mesh.primitives) {
-        if let Some(material) = material(primitive, chosen) {
+        if let Some(material) = material(primitive, chosen)? {
             primitive.material = Some(material);
         }
     }
@@ -55,7 +55,8 @@ pub(super) fn apply(document: &mut Document, wanted: &str) -> Result<(), FileErr
 }
 
 /// The material of a variant, if that has one of its own.
-fn material(primitive: &Primitive, variant: usize) -> Option<usize> {
-    let Mappings { mappings } = get(&primitive.extensions, NAME)?;
-    mappings.into_iter().find(|mapping| mapping.variants.contains(&variant))?.material
+fn material(primitive: &Primitive, variant: usize) -> Result<Option<usize>, FileError> {
+    let Mappings { mappings } = get(&primitive.extensions, NAME)?.unwrap_or_default();
+    let mapping = mappings.into_iter().find(|mapping| mapping.variants.contains(&variant));
+    Ok(mapping.and_then(|mapping| mapping.material))
 }

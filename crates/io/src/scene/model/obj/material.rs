@@ -15,7 +15,7 @@
 //!   else how bright it is, as in three.js.
 //! - `Ke`, `map_Ke`: radiance, on the side of the normal. What shines has no relief and no holes.
 //! - `bump`, `map_Bump`: heights, `-bm` centimetres from black to white; `norm`: normals as of OpenGL.
-//! - `Pm` metalness, `Ps` fuzz, `Pc` and `Pcr` coat and its roughness, `aniso` anisotropy; `map_Pr`, `map_Pm` and `map_Ps` take their
+//! - `Pm` metalness, `Ps` fuzz, `Pc` and `Pcr` coat and its roughness, `aniso` anisotropy, turned by `anisor` of a whole turn; `map_Pr`, `map_Pm` and `map_Ps` take their
 //!   places.
 
 use eyebeam_core::color::{LUMENS_PER_WATT, Rgb};
@@ -60,8 +60,8 @@ pub(super) fn add(name: &str, mtl: &Mtl, pictures: &mut Pictures<'_>, model: &mu
     }
     if shines && layers.len() > 1 {
         layers.truncate(1);
-        let message = format!("the material `{name}` shines: its relief and holes are not kept");
-        model.warnings.push(Warning::new(message));
+        let message = "it shines: its relief and holes are not kept";
+        model.warnings.push(Warning::new(message).part(format!("material `{name}`")));
     }
     let mut below = String::new();
     let count = layers.len();
@@ -237,6 +237,7 @@ impl Maker<'_, '_> {
                 *part = picture;
             }
         }
+        p.specular_rotation = 360.0 * self.number("anisor", 0.0, 1.0);
     }
 
     /// The light that it sends out; whether there is any.

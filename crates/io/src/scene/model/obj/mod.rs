@@ -199,8 +199,8 @@ impl Reader {
                 let outcome = made.entry(name.clone()).or_insert_with(|| match known.get(name) {
                     Some(mtl) => Some(material::add(name, mtl, &mut pictures, &mut model)),
                     None => {
-                        let message = format!("there is no material `{name}`: what has it is grey");
-                        model.warnings.push(Warning::new(message));
+                        let message = "there is no such material: what has it is grey";
+                        model.warnings.push(Warning::new(message).part(format!("material `{name}`")));
                         None
                     }
                 });
@@ -276,15 +276,17 @@ fn read_libraries(files: Files<'_>, lines: &[String], known: &mut BTreeMap<Strin
         if !names.insert(name) {
             continue;
         }
+        let refused = |e: FileError| Warning {
+            hint: e.hint,
+            ..Warning::new(format!("the library `{name}` is not read: {}", e.message))
+        };
         match find(name).map(|path| path.components().collect::<PathBuf>()) {
             Ok(path) if !read.insert(path.clone()) => {}
             Ok(path) => match mtl::read(files, &path, name, known) {
                 Ok(found) => warnings.extend(found),
-                Err(e) => warnings.push(Warning::new(format!("`{name}` is not read: {e}"))),
+                Err(e) => warnings.push(refused(e.into())),
             },
-            Err(e) => {
-                warnings.push(Warning { hint: e.hint, ..Warning::new(format!("`{name}` is not read: {}", e.message)) })
-            }
+            Err(e) => warnings.push(refused(e)),
         }
     }
 }

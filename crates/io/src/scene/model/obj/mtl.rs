@@ -55,7 +55,7 @@ pub(super) enum Part {
 }
 
 const COLORS: [&str; 4] = ["Kd", "Ks", "Ke", "Tf"];
-const NUMBERS: [&str; 10] = ["Ns", "Ni", "d", "illum", "Pr", "Pm", "Ps", "Pc", "Pcr", "aniso"];
+const NUMBERS: [&str; 11] = ["Ns", "Ni", "d", "illum", "Pr", "Pm", "Ps", "Pc", "Pcr", "aniso", "anisor"];
 /// Of exporters that have nothing to say.
 const USUAL_AMBIENT: [f32; 3] = [0.0, 0.2, 1.0];
 /// What pictures are of that are no amounts.
