@@ -1,5 +1,7 @@
 //! Why a command ended early, and the exit code that says so.
 
+use eyebeam_io::Fault;
+
 /// The exit code of a bug.
 pub(crate) const INTERNAL: u8 = 1;
 
@@ -39,8 +41,9 @@ impl Error {
     pub(crate) fn exit_code(&self) -> u8 {
         match self {
             Self::Usage(_) | Self::Io(eyebeam_io::Error::UnknownFormat { .. }) => 2,
-            Self::Io(eyebeam_io::Error::Scene(all)) if all.iter().all(|d| d.unreadable) => 4,
-            Self::Io(eyebeam_io::Error::File(e)) if e.memory => 5,
+            Self::Io(eyebeam_io::Error::Scene(all)) if all.iter().all(|d| d.fault == Fault::FileSystem) => 4,
+            Self::Io(eyebeam_io::Error::Scene(all)) if all.iter().all(|d| d.fault == Fault::Memory) => 5,
+            Self::Io(eyebeam_io::Error::File(e)) if e.fault == Fault::Memory => 5,
             Self::Io(eyebeam_io::Error::Scene(_) | eyebeam_io::Error::File(_)) | Self::Scene(_) => 3,
             Self::Io(eyebeam_io::Error::Io { .. }) | Self::Stdout(_) => 4,
             Self::Memory { .. } => 5,

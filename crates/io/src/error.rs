@@ -59,8 +59,20 @@ pub struct FileError {
     pub at: At,
     /// What to do about it.
     pub hint: Option<String>,
-    /// Whether the file may be right: it only takes more memory than is allowed.
-    pub memory: bool,
+    /// Whose fault it is.
+    pub fault: Fault,
+}
+
+/// Whose fault an error is.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum Fault {
+    /// The file's.
+    #[default]
+    File,
+    /// The file may be right: the file system does not give it.
+    FileSystem,
+    /// The file may be right: it takes more memory than is allowed.
+    Memory,
 }
 
 /// Where in a file.
@@ -131,7 +143,7 @@ impl Serialize for Place {
 impl FileError {
     /// Of a file that has no name yet: [`Self::of`] gives it.
     pub(crate) fn new(message: impl Into<String>) -> Self {
-        Self { file: String::new(), message: message.into(), at: At::File, hint: None, memory: false }
+        Self { file: String::new(), message: message.into(), at: At::File, hint: None, fault: Fault::File }
     }
 
     pub(crate) fn at(self, at: At) -> Self {
@@ -178,8 +190,8 @@ pub struct Diagnostic {
     pub place: Option<Place>,
     /// What to do about it.
     pub hint: Option<String>,
-    /// Whether the scene may be right: the file system does not give a file that it names.
-    pub unreadable: bool,
+    /// Whose fault it is; the scene may be right, and a file that it names not be had.
+    pub fault: Fault,
 }
 
 impl fmt::Display for Diagnostic {

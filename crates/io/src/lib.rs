@@ -12,5 +12,5 @@ pub mod output;
 pub mod scene;
 mod warning;
 
-pub use error::{At, Diagnostic, Error, FileError, Place};
+pub use error::{At, Diagnostic, Error, Fault, FileError, Place};
 pub use warning::Warning;

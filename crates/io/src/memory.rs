@@ -3,7 +3,7 @@
 use std::sync::atomic::AtomicU64;
 use std::sync::atomic::Ordering::Relaxed;
 
-use crate::error::FileError;
+use crate::error::{Fault, FileError};
 
 /// What they may take if nothing is said.
 const USUAL: u64 = 16 << 30;
@@ -42,7 +42,10 @@ impl Memory {
         }
         let (needed, allowed) = (mebibytes(needed), self.allowed >> 20);
         let message = format!("it would take {needed} MiB of memory, and {allowed} MiB are allowed");
-        Err(FileError { memory: true, ..FileError::new(message).hint("allow more (--memory), or make it smaller") })
+        Err(FileError {
+            fault: Fault::Memory,
+            ..FileError::new(message).hint("allow more (--memory), or make it smaller")
+        })
     }
 
     /// Bytes that were counted.
@@ -64,7 +67,7 @@ mod tests {
         let memory = Memory::new(Some(3 << 20));
         memory.take(2 << 20).unwrap();
         let error = memory.take(u64::MAX).unwrap_err();
-        assert!(error.memory);
+        assert_eq!(error.fault, Fault::Memory);
         let error = memory.take((1 << 20) + 1).unwrap_err();
         assert_eq!(error.message, "it would take 4 MiB of memory, and 3 MiB are allowed");
         memory.take(1 << 20).unwrap();

@@ -4,7 +4,7 @@ use std::fmt;
 
 use serde::Serialize;
 
-use crate::error::{At, Diagnostic, Place, fmt_report};
+use crate::error::{At, Diagnostic, Fault, Place, fmt_report};
 
 /// Something that was not kept as it is in a file, or that has no effect in a scene; the rest is fine.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize)]
@@ -56,6 +56,6 @@ impl fmt::Display for Warning {
 /// For those who want no warnings.
 impl From<Warning> for Diagnostic {
     fn from(Warning { message, place, hint }: Warning) -> Self {
-        Self { message, place, hint, unreadable: false }
+        Self { message, place, hint, fault: Fault::File }
     }
 }

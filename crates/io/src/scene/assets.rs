@@ -11,7 +11,7 @@ use eyebeam_core::film::Image;
 use eyebeam_core::light::{EnvironmentDesc, IesProfile};
 use eyebeam_core::shape::MeshData;
 
-use crate::error::{At, Error, FileError};
+use crate::error::{At, Error, Fault, FileError};
 use crate::file;
 use crate::ies::read_ies_bytes;
 use crate::image::{image_size, read_image_bytes};
@@ -26,17 +26,8 @@ pub(super) struct Note {
     pub(super) path: Vec<String>,
     pub(super) message: String,
     pub(super) hint: Option<String>,
-    pub(super) kind: Kind,
-}
-
-#[derive(Clone, Copy, PartialEq, Eq)]
-pub(super) enum Kind {
-    /// The file is not what it should be.
-    Wrong,
-    /// The file system does not give it.
-    Unreadable,
-    /// It is read, but not all of it was kept.
-    Warning,
+    /// Whose fault it is; nobody's if the file is read, but not all of it was kept.
+    pub(super) fault: Option<Fault>,
 }
 
 /// Reads all files that are named. `folder_of` tells where relative names at a path of keys are looked for.
@@ -120,17 +111,17 @@ type Cache<T> = BTreeMap<PathBuf, Result<Arc<T>, Failure>>;
 pub(super) struct Failure {
     message: String,
     hint: Option<String>,
-    kind: Kind,
+    fault: Fault,
 }
 
 impl Failure {
     fn wrong(message: &str, hint: &str) -> Self {
-        Self { message: message.to_owned(), hint: Some(hint.to_owned()), kind: Kind::Wrong }
+        Self { message: message.to_owned(), hint: Some(hint.to_owned()), fault: Fault::File }
     }
 
     fn unreadable(error: &std::io::Error) -> Self {
         let hint = "a relative name is looked for beside the scene file that says it".to_owned();
-        Self { message: format!("cannot be read: {error}"), hint: Some(hint), kind: Kind::Unreadable }
+        Self { message: format!("cannot be read: {error}"), hint: Some(hint), fault: Fault::FileSystem }
     }
 }
 
@@ -138,7 +129,8 @@ impl From<Error> for Failure {
     fn from(error: Error) -> Self {
         match error {
             Error::Io { source, .. } => Self::unreadable(&source),
-            Error::File(FileError { message, at, hint, .. }) => {
+            Error::File(FileError { message, at, hint, fault, .. }) => {
+                let said = if fault == Fault::Memory { "is not read" } else { "is wrong" };
                 let at = match at {
                     At::File => String::new(),
                     At::Line(line) => format!(" (line {line})"),
@@ -146,9 +138,9 @@ impl From<Error> for Failure {
                     At::Byte(byte) => format!(" (byte {byte})"),
                     At::Part(part) => format!(" ({part})"),
                 };
-                Self { message: format!("is wrong: {message}{at}"), hint, kind: Kind::Wrong }
+                Self { message: format!("{said}: {message}{at}"), hint, fault }
             }
-            other => Self { message: format!("is wrong: {other}"), hint: None, kind: Kind::Wrong },
+            other => Self { message: format!("is wrong: {other}"), hint: None, fault: Fault::File },
         }
     }
 }
@@ -178,11 +170,11 @@ impl<'a, F: Fn(&[String]) -> Option<&'a Path>> Loader<'_, F> {
 
     /// What was read; none, and a note, if that has failed.
     pub(super) fn or_note<T>(&mut self, path: Vec<String>, name: &str, asset: Result<T, Failure>) -> Option<T> {
-        let Failure { message, hint, kind } = match asset {
+        let Failure { message, hint, fault } = match asset {
             Ok(asset) => return Some(asset),
             Err(failure) => failure,
         };
-        self.notes.push(Note { path, message: format!("`{name}` {message}"), hint, kind });
+        self.notes.push(Note { path, message: format!("`{name}` {message}"), hint, fault: Some(fault) });
         None
     }
 
@@ -192,7 +184,7 @@ impl<'a, F: Fn(&[String]) -> Option<&'a Path>> Loader<'_, F> {
             path: path.to_vec(),
             message: format!("`{name}`: {message}"),
             hint,
-            kind: Kind::Warning,
+            fault: None,
         }));
     }
 
@@ -208,9 +200,7 @@ impl<'a, F: Fn(&[String]) -> Option<&'a Path>> Loader<'_, F> {
 
     /// Counts memory that is about to be used; fails if there is not so much left.
     pub(super) fn take(&mut self, bytes: u64) -> Result<(), Failure> {
-        let failure =
-            |e: FileError| Failure { message: format!("is not read: {}", e.message), hint: e.hint, kind: Kind::Wrong };
-        self.memory.take(bytes).map_err(failure)
+        self.memory.take(bytes).map_err(|e| Error::File(e).into())
     }
 
     fn read_once<T: Asset>(&mut self, cache: &mut Cache<T>, path: &[String], name: &str) -> Result<Arc<T>, Failure> {

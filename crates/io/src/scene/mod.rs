@@ -17,7 +17,7 @@ use std::path::Path;
 use eyebeam_core::desc::SceneDesc;
 use eyebeam_core::setup::Given;
 
-use crate::error::{Diagnostic, Error};
+use crate::error::{Diagnostic, Error, Fault};
 use crate::warning::Warning;
 
 pub use contents::{Animation, Contents, NamedCamera};
@@ -121,7 +121,7 @@ fn refuse_choices(options: &ReadOptions<'_>) -> Result<(), Error> {
     let refused = choices.into_iter().filter_map(|(kind, wanted)| {
         let message =
             format!("there is no {kind} `{}`: this is a scene file, and `--{kind}` chooses in models", wanted?);
-        Some(Diagnostic { message, place: None, hint: Some(format!("leave `--{kind}` out")), unreadable: false })
+        Some(Diagnostic { message, place: None, hint: Some(format!("leave `--{kind}` out")), fault: Fault::File })
     });
     let refused: Vec<_> = refused.collect();
     if refused.is_empty() { Ok(()) } else { Err(Error::Scene(refused)) }

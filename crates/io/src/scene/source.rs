@@ -9,7 +9,7 @@ use std::path::{Component, Path, PathBuf};
 use toml::Spanned;
 use toml::de::{DeTable, DeValue};
 
-use crate::error::{At, Diagnostic, Error, Place};
+use crate::error::{At, Diagnostic, Error, Fault, Place};
 use crate::scene::model::Files;
 use crate::scene::nesting;
 use crate::warning::Warning;
@@ -142,9 +142,9 @@ impl Sources {
         for (span, name) in names.into_iter().filter(|_| is_valid) {
             match self.include(&name, folder, open) {
                 Ok(included) => self.texts[index].includes.push(included),
-                Err(Refusal::Here { message, hint, unreadable }) => {
+                Err(Refusal::Here { message, hint, fault }) => {
                     let mut problem = self.problem(span.start + base..span.end + base, message, Some(hint.to_owned()));
-                    problem.diagnostic.unreadable = unreadable;
+                    problem.diagnostic.fault = fault;
                     self.problems.push(problem);
                 }
                 Err(Refusal::There(error)) => return Err(error),
@@ -154,7 +154,7 @@ impl Sources {
     }
 
     fn include(&mut self, name: &str, folder: Option<&Path>, open: &mut Vec<PathBuf>) -> Result<usize, Refusal> {
-        let refuse = |message, hint| Err(Refusal::Here { message, hint, unreadable: false });
+        let refuse = |message, hint| Err(Refusal::Here { message, hint, fault: Fault::File });
         let root = open.first().and_then(|file| file.parent());
         let (Some(folder), Some(root)) = (folder, root) else {
             return refuse(format!("cannot include `{name}`: this scene has no folder"), "save it as a file");
@@ -171,7 +171,7 @@ impl Sources {
         let unreadable = |e| Refusal::Here {
             message: format!("cannot read `{name}`: {e}"),
             hint: "names are relative to the file that includes",
-            unreadable: true,
+            fault: Fault::FileSystem,
         };
         let real = real.map_err(unreadable)?;
         if open.contains(&real) {
@@ -204,7 +204,7 @@ impl Sources {
     /// What is wrong at a span.
     pub(super) fn problem(&self, span: Range<usize>, message: String, hint: Option<String>) -> Problem {
         let place = self.place(span.start);
-        Problem { start: span.start, diagnostic: Diagnostic { message, place, hint, unreadable: false } }
+        Problem { start: span.start, diagnostic: Diagnostic { message, place, hint, fault: Fault::File } }
     }
 
     /// Where relative names at an offset are looked for.
@@ -227,7 +227,7 @@ impl Sources {
 /// Why a file is not included.
 enum Refusal {
     /// The including file is wrong.
-    Here { message: String, hint: &'static str, unreadable: bool },
+    Here { message: String, hint: &'static str, fault: Fault },
     /// The included file is.
     There(Error),
 }
@@ -260,7 +260,7 @@ fn read_text(path: &Path) -> Result<String, Error> {
 fn text_of(path: &Path, bytes: std::io::Result<Option<Vec<u8>>>) -> Result<String, Error> {
     let refuse = |message: String, (line, column), hint: &str| {
         let place = Some(Place { file: path.display().to_string(), at: At::Character { line, column } });
-        let diagnostic = Diagnostic { message, place, hint: Some(hint.to_owned()), unreadable: false };
+        let diagnostic = Diagnostic { message, place, hint: Some(hint.to_owned()), fault: Fault::File };
         Err(Error::Scene(vec![diagnostic]))
     };
     let Some(bytes) = bytes.map_err(|e| Error::read(path, e))? else {

@@ -15,7 +15,7 @@ use toml::de::{DeTable, DeValue};
 
 use crate::error::Error;
 use crate::memory::Memory;
-use crate::scene::assets::{self, Kind, Note};
+use crate::scene::assets::{self, Note};
 use crate::scene::explain::{
     MISSING_MATERIAL, explain, lacks_kind, missing_material, nearest_material, place_name, quoted,
 };
@@ -154,13 +154,15 @@ impl<'a> Reader<'a> {
         let sources = self.sources;
         let notes = assets::load(desc, self.memory, |path| sources.folder(numbered.span_of(path).start));
         let mut missing = Vec::new();
-        for Note { path, message, hint, kind } in notes {
+        for Note { path, message, hint, fault } in notes {
             let span = numbered.span_of(&path);
-            if kind == Kind::Warning {
+            let Some(fault) = fault else {
                 self.warnings.push(self.sources.problem(span, message, hint));
-            } else if self.problems.len() < self.most {
+                continue;
+            };
+            if self.problems.len() < self.most {
                 let mut problem = self.sources.problem(span, format!("{message},{}", place_name(&path)), hint);
-                problem.diagnostic.unreadable = kind == Kind::Unreadable;
+                problem.diagnostic.fault = fault;
                 self.problems.push(problem);
                 missing.push(path);
             }

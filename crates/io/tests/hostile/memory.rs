@@ -2,9 +2,9 @@
 
 use exr::prelude::Compression;
 use eyebeam_core::film::Image;
-use eyebeam_io::Error;
 use eyebeam_io::image::{Encoding, ImageFormat};
 use eyebeam_io::scene::{Files, ReadOptions, read_bytes};
+use eyebeam_io::{Error, Fault};
 use serde_json::json;
 
 use crate::glb::glb;
@@ -98,7 +98,7 @@ fn json_that_is_deep_or_empty() {
     let bytes = format!("{{\"asset\":{{\"version\":\"2.0\"}},\"nodes\":[{}{{}}]}}", "{},".repeat(n));
     let options = ReadOptions { memory: Some(64 << 20), ..ReadOptions::default() };
     let (result, peak) = watched("nodes", || read_bytes("model.gltf", bytes.as_bytes(), Files::None, &options));
-    assert!(matches!(result, Err(Error::File(e)) if e.memory) && peak < 1 << 20, "{peak}");
+    assert!(matches!(result, Err(Error::File(e)) if e.fault == Fault::Memory) && peak < 1 << 20, "{peak}");
 }
 
 #[test]
@@ -238,7 +238,7 @@ fn no_more_than_is_allowed() {
         assert!(told > 1 << 20 && peak < 4 * told + bytes.len(), "{name}: {told} are told, {peak} used");
         let (result, peak) = read(Some(1 << 20));
         let Err(Error::File(error)) = result else { panic!("{name} is read") };
-        assert!(error.memory && error.file == name, "{error}");
+        assert!(error.fault == Fault::Memory && error.file == name, "{error}");
         // What is read piece by piece has been read to some point.
         assert!(peak < 12 << 20, "{name}: {peak} bytes, {error}");
     }

@@ -12,7 +12,7 @@ use eyebeam_core::light::EnvironmentDesc;
 use eyebeam_core::render::{Monitor, Render, Settings};
 use eyebeam_core::scene::Scene;
 use eyebeam_io::scene::{SceneFile, read, read_str};
-use eyebeam_io::{At, Error, Place};
+use eyebeam_io::{At, Error, Fault, Place};
 use tempfile::TempDir;
 
 use crate::{character, places, problems, setting, unmark};
@@ -165,7 +165,8 @@ fn what_is_wrong_has_its_place() {
 #[test]
 fn files_that_are_not_there() {
     let folder = folder();
-    let unreadable = |text: &str| problems(read_in(&folder, text).unwrap_err()).iter().all(|p| p.unreadable);
+    let unreadable =
+        |text: &str| problems(read_in(&folder, text).unwrap_err()).iter().all(|p| p.fault == Fault::FileSystem);
     assert!(unreadable("include = [\"b.toml\"]"));
     assert!(unreadable("[[shape.mesh]]\nfile = \"b.ply\"\n[[shape.mesh]]\nfile = \".\""));
     assert!(!unreadable("[[shape.mesh]]\nfile = \"lamp.ies\""));

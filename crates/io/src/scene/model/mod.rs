@@ -22,8 +22,9 @@ use eyebeam_core::material::{Lambertian, MaterialDesc};
 use eyebeam_core::names::Name;
 use eyebeam_core::setup::Given;
 use eyebeam_core::texture::{Color, TextureDesc, VertexColor};
+use glam::Vec3;
 
-use crate::error::{Diagnostic, Error, FileError};
+use crate::error::{Diagnostic, Error, Fault, FileError};
 use crate::memory::Memory;
 use crate::scene::source::Sources;
 use crate::scene::{Contents, NamedCamera, Override, ReadOptions, SceneFile, toml};
@@ -136,6 +137,7 @@ pub(super) fn read(format: &ModelFormat, input: &Input<'_>, options: &ReadOption
         }
         (None, None) => {}
     }
+    warnings.extend(rounded(&desc));
     let problems = desc.check();
     if problems.is_empty() {
         let warnings = warnings.into_iter().map(|warning| warning.of(&input.name)).collect();
@@ -145,9 +147,24 @@ pub(super) fn read(format: &ModelFormat, input: &Input<'_>, options: &ReadOption
         message: format!("in `{}`: {message}", input.name),
         place: None,
         hint,
-        unreadable: false,
+        fault: Fault::File,
     };
     Err(Error::Scene(problems.into_iter().map(|problem| diagnostic(problem.message, problem.hint)).collect()))
+}
+
+/// Tells of places so far from the origin that single precision moves them by what can be seen.
+fn rounded(desc: &SceneDesc) -> Option<Warning> {
+    /// Of the size of the model.
+    const SEEN: f32 = 1e-4;
+    let mut vertices = desc.shape.mesh.iter().filter_map(|mesh| mesh.data.as_ref()).flat_map(|data| &data.vertices);
+    let first = Vec3::from(*vertices.next()?);
+    let [min, max] = vertices.fold([first; 2], |[min, max], &p| [min.min(p.into()), max.max(p.into())]);
+    let step = f32::EPSILON * min.abs().max(max.abs()).max_element();
+    let size = (max - min).max_element();
+    (step > SEEN * size && size > 0.0).then(|| {
+        let message = format!("it is so far from the origin that places are rounded to {step} of {size} metres");
+        Warning::new(message).hint("move it to the origin")
+    })
 }
 
 /// The settings that a model can have: those of the picture.
@@ -157,7 +174,7 @@ fn render_settings(overrides: &[Override]) -> Result<RenderDesc, Error> {
             message: format!("`-D {}` changes a scene file, and this is a model", other.path),
             place: None,
             hint: Some("of models only `render` can be changed".to_owned()),
-            unreadable: false,
+            fault: Fault::File,
         }]));
     }
     let options = ReadOptions { overrides, ..ReadOptions::default() };

@@ -55,6 +55,16 @@ fn a_mesh_is_a_model_without_camera_and_light() {
     assert!(matches!(material, MaterialDesc::Lambertian(matte) if matte.albedo.rgb().is_none()));
 }
 
+/// A metre of a map: single precision has steps of a quarter of one there.
+#[test]
+fn what_is_far_from_the_origin_is_told_of() {
+    let at = |x: f64| format!("v {x} 0 0\nv {} 0 0\nv {x} 1 0\nf 1 2 3\n", x + 1.0);
+    let said = |x| model("t.obj", &at(x), None).warnings.iter().map(ToString::to_string).collect::<String>();
+    assert_eq!((said(0.0), said(500.0)), (String::new(), String::new()));
+    let far = said(4_000_000.0);
+    assert!(far.contains("places are rounded to 0.47683716 of 1 metres\n  --> "), "{far}");
+}
+
 #[test]
 fn what_is_up_is_turned_upwards() {
     let desc = model("t.ply", TRIANGLE, Some(Up::Z)).desc;
