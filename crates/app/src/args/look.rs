@@ -8,9 +8,9 @@ use eyebeam_io::image::{Bits, Encoding};
 #[derive(Clone, Debug, ClapArgs)]
 #[command(next_help_heading = "Look of .png and .jpg (.exr and .hdr stay linear light)")]
 pub(crate) struct LookArgs {
-    /// Curve from light to the screen
-    #[arg(long, default_value = View::FOR_PICTURES.name(), value_parser = view())]
-    pub(crate) view: View,
+    /// Curve from light to the screen [default: agx; of models in the studio neutral]
+    #[arg(long, value_parser = view())]
+    pub(crate) view: Option<View>,
     /// Let the lens scatter this share of the light, which glows around what is bright; 0 is off, 0.2 is much
     #[arg(long, value_name = "SHARE", default_value = "0", value_parser = bloom)]
     pub(crate) bloom: f32,
@@ -50,7 +50,7 @@ const FILES: &str = "Files";
 impl LookArgs {
     pub(crate) fn encoding(&self) -> Encoding {
         let Self { view, bloom, vignette, exposure, white_balance, contrast, saturation, dither, .. } = *self;
-        let exposure = exposure.unwrap_or(Look::default().exposure);
+        let (view, exposure) = (view.unwrap_or(View::FOR_PICTURES), exposure.unwrap_or(Look::default().exposure));
         let look = Look { view, bloom, vignette, exposure, white_balance, contrast, saturation, dither };
         let Self { bits, half, quality, .. } = *self;
         Encoding { look, bits, half, quality }

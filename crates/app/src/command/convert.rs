@@ -2,7 +2,7 @@
 
 use std::path::Path;
 
-use eyebeam_core::look::Exposure;
+use eyebeam_core::look::{Exposure, Look, View};
 use eyebeam_io::scene::{WriteOptions, Written, check_unwritten, read_with, write};
 
 use crate::args::ConvertArgs;
@@ -33,7 +33,11 @@ pub(super) fn run(args: &ConvertArgs) -> Result<(), Error> {
     setup::say_of(&assumed);
     let beside = if files == 0 { String::new() } else { format!(" · {files} files in {}", folder.display()) };
     say(&format!("{}{beside}", args.output.display()));
-    if setup::exposure(file.given, &assumed) == Some(Exposure::Auto) {
+    let look = setup::look_of(Look { view: View::FOR_PICTURES, ..Look::default() }, file.given, &assumed);
+    if look.view != View::FOR_PICTURES {
+        say(&format!("render it with `--view {}`, as the model would be", look.view.name()));
+    }
+    if look.exposure == Exposure::Auto {
         say("its light is of any brightness: render it with `--exposure auto`, as the model would be");
     }
     Ok(())

@@ -3,7 +3,7 @@
 use std::sync::Arc;
 
 use eyebeam_core::light::ImageEnvironment;
-use eyebeam_core::look::Exposure;
+use eyebeam_core::look::{Exposure, Look, View};
 use eyebeam_core::setup::{Assumed, Given, Setup, Surroundings};
 use eyebeam_io::image::read_image;
 use eyebeam_io::scene::SceneFile;
@@ -41,8 +41,12 @@ pub(super) fn say_of(Assumed { what, .. }: &Assumed) {
     }
 }
 
-/// The exposure if nobody says one and it is not that of scene files: nobody knows how bright the light of a model is, unless it is the
-/// studio's.
-pub(super) fn exposure(given: Given, assumed: &Assumed) -> Option<Exposure> {
-    (given != Given::ALL && !assumed.is_studio).then_some(Exposure::Auto)
+/// What a picture of a model looks like if nobody says, unless it is as pictures of scene files are: in the studio colours are as they are;
+/// nobody knows how bright other light is.
+pub(super) fn look_of(look: Look, given: Given, assumed: &Assumed) -> Look {
+    match (assumed.is_studio, given == Given::ALL) {
+        (true, _) => Look { view: View::FOR_MODELS, ..look },
+        (false, true) => look,
+        (false, false) => Look { exposure: Exposure::Auto, ..look },
+    }
 }

@@ -5,7 +5,7 @@ use std::fs;
 use crate::made::write_gltf;
 use crate::{Place, read_png};
 
-/// A tall box beside the origin, wide along one axis.
+/// A tall box beside the origin, wide along one axis, inside out.
 const BAR: &str = "v 2 0 -3
 v 3 0 -3
 v 3 0 3

@@ -5,7 +5,8 @@
 //! it sees most.
 //!
 //! Walls that are thick have an outside, too, which may be what is to be seen: of a house, a crate, the housing of a machine. So the eye
-//! stands inside of them only if lamps are in there, and what is open is shown like anything else, but from an open side.
+//! stands inside of them only if lamps are in there, and what is open is shown like anything else, but from an open side. Walls without
+//! an outside around nothing are a thing that is turned inside out, as many files have them.
 
 use std::f32::consts::FRAC_1_SQRT_2;
 
@@ -39,17 +40,22 @@ impl Room {
         /// How much of the outside of a thin wall there may be for each part of its inside.
         const OUTSIDE: f32 = 0.5;
         let size = extent.max - extent.min;
-        let (mut inwards, mut outwards) = ([0.0; 6], [0.0; 6]);
+        /// The least of what stands in a room, for each part of its floor.
+        const FURNISHED: f32 = 0.02;
+        let (mut inwards, mut outwards, mut within) = ([0.0; 6], [0.0; 6], 0.0);
         for &[a, b, c] in faces {
             let area = 0.5 * (b - a).cross(c - a);
             let middle = (a + b + c) / 3.0;
+            let mut is_within = true;
             for (side, out) in SIDES.iter().enumerate() {
                 let depth = (extent.side(side) - middle.dot(*out)) / size.dot(out.abs());
                 let facing = area.dot(*out);
+                is_within &= depth > NEAR;
                 if depth.abs() < NEAR && facing.abs() > FRAC_1_SQRT_2 * area.length() {
                     if facing < 0.0 { inwards[side] -= facing } else { outwards[side] += facing }
                 }
             }
+            within += if is_within { area.length() } else { 0.0 };
         }
         let whole = |side: usize| {
             let across = size - size * SIDES[side].abs();
@@ -61,8 +67,9 @@ impl Room {
             let walls = WALLS.iter().filter(|&&side| is_wall[side]).count();
             (is_wall[FLOOR] && walls >= 2).then_some(Self { is_wall, is_thick })
         };
-        let thick = || of(true).filter(|room| if room.is_closed() { is_lit } else { room.open() != Vec3::ZERO });
-        of(false).or_else(thick)
+        let has_inside = is_lit || within > FURNISHED * whole(FLOOR);
+        let thin = of(false).filter(|room| !room.is_closed() || has_inside);
+        thin.or_else(|| of(true).filter(|room| if room.is_closed() { is_lit } else { room.open() != Vec3::ZERO }))
     }
 
     /// Whether light can come in from nowhere.
@@ -185,8 +192,10 @@ mod tests {
     #[test]
     fn what_looks_inwards_is_a_room() {
         let size = Vec3::new(5.0, 2.5, 4.0);
-        let closed = room(&boxed(&[0, 1, 2, 3, 4, 5], true, size)).unwrap();
-        assert!(closed.is_closed());
+        let mut closed = boxed(&[0, 1, 2, 3, 4, 5], true, size);
+        assert_eq!(room(&closed), None, "a box inside out");
+        closed.shape.quad.extend(boxed(&[0, 1, 2, 3, 4, 5], false, 0.2 * size).shape.quad);
+        assert!(room(&closed).unwrap().is_closed());
         assert!(!room(&boxed(&[0, 1, 2, 3, 4], true, size)).unwrap().is_closed());
         assert_eq!(room(&boxed(&[0, 1, 2, 3, 4, 5], false, size)), None);
         // A tray, a terrain.

@@ -180,6 +180,9 @@ mod tests {
                 desc.shape.quad.push(QuadDesc { corner, u, v, ..QuadDesc::default() });
             }
         }
+        let table = [[-0.5; 3], [1.0, 0.0, 0.0], [0.0, 0.0, 1.0]];
+        let [corner, u, v] = table;
+        desc.shape.quad.push(QuadDesc { corner, u, v, ..QuadDesc::default() });
         let turntable = Turntable::around(&desc).unwrap();
         Setup::default().complete(&mut desc, Given::default());
         turntable.fit(&mut desc.camera, 1.5);

@@ -110,9 +110,10 @@ impl<'a> Job<'a> {
         if !args.quiet {
             setup::say_of(&assumed);
         }
-        if let (None, Some(exposure)) = (args.look.exposure, setup::exposure(scene.given, &assumed)) {
-            target.encoding.look.exposure = exposure;
-        }
+        let look = &mut target.encoding.look;
+        let made_up = setup::look_of(look.clone(), scene.given, &assumed);
+        look.view = args.look.view.unwrap_or(made_up.view);
+        look.exposure = args.look.exposure.unwrap_or(made_up.exposure);
         let (desc, memory, aovs) = (scene.desc, scene.memory, args.aovs());
         let mut settings = Settings::from(&desc.render);
         settings.threads = args.threads.unwrap_or(settings.threads);

@@ -38,6 +38,9 @@ impl View {
     /// What pictures are developed with if nobody says: of ten pictures, side by side, most looked best with it.
     pub const FOR_PICTURES: Self = Self::Agx;
 
+    /// The same of models in the studio, whose light is even and of a known brightness.
+    pub const FOR_MODELS: Self = Self::Neutral;
+
     /// Every view by its name.
     pub const NAMES: &[(&str, Self)] = &[
         ("standard", Self::Standard),

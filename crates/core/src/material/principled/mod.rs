@@ -153,6 +153,8 @@ pub struct Principled {
     pub emission_luminance: f32,
     /// Color of that light, 0..1 in each channel.
     pub emission_color: Color,
+    /// Whether it sends light out on the other side, too.
+    pub emission_two_sided: bool,
     /// The direction in which highlights are long, before `specular_rotation`, as a colour: red and green from 0 to 1 are from -1 to 1 along growing
     /// u and v, as in pictures of normals. Along growing u if absent.
     #[serde(skip_serializing_if = "Option::is_none")]
@@ -202,6 +204,7 @@ impl Default for Principled {
             thin_film_ior: 1.4,
             emission_luminance: 0.0,
             emission_color: grey(1.0),
+            emission_two_sided: false,
             geometry_tangent: None,
             geometry_coat_normal: None,
             geometry_coat_normal_strength: 1.0,
@@ -314,7 +317,7 @@ impl Principled {
     #[inline]
     pub(crate) fn emission(&self) -> Option<Emission<'_>> {
         let scale = self.emission_luminance / LUMENS_PER_WATT;
-        (scale > 0.0).then_some(Emission { color: &self.emission_color, scale, two_sided: false })
+        (scale > 0.0).then_some(Emission { color: &self.emission_color, scale, two_sided: self.emission_two_sided })
     }
 
     /// Whether `transmission_color` is that of what is inside.

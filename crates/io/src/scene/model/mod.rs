@@ -162,7 +162,8 @@ fn rounded(desc: &SceneDesc) -> Option<Warning> {
     let step = f32::EPSILON * min.abs().max(max.abs()).max_element();
     let size = (max - min).max_element();
     (step > SEEN * size && size > 0.0).then(|| {
-        let message = format!("it is so far from the origin that places are rounded to {step} of {size} metres");
+        let part = (size / step).round().max(1.0);
+        let message = format!("it is so far from the origin that places are rounded to 1/{part} of its size");
         Warning::new(message).hint("move it to the origin")
     })
 }

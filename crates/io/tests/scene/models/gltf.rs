@@ -247,7 +247,8 @@ fn materials_become_principled() {
     assert_eq!((p.thin_film_weight.number(), p.thin_film_thickness.number()), (Some(1.0), Some(0.5)));
     assert_eq!((p.fuzz_weight.number(), rgb(&p.fuzz_color)), (Some(0.5), [1.0, 0.5, 0.0]));
     assert_eq!((p.transmission_weight.number(), p.transmission_depth, p.geometry_thin_walled), (Some(0.5), 3.0, false));
-    assert_eq!(rgb(&p.transmission_color), [1.0, 0.5, 0.25]);
+    // In 3 metres, of which each has the base colour, besides that of the volume.
+    assert_eq!(rgb(&p.transmission_color), [0.125, 0.5 / 64.0, 0.25]);
 }
 
 #[test]

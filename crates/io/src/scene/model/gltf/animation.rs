@@ -37,10 +37,14 @@ pub(super) fn find(document: &Document, wanted: &str) -> Result<usize, FileError
 
 /// All animations, with the time of their last keys.
 pub(super) fn all(buffers: &Buffers<'_>) -> Vec<scene::Animation> {
-    let end = |sampler: &AnimationSampler| buffers.floats::<1>(sampler.input, 0.0).ok()?.last().map(|[t]| *t);
+    let mut known = BTreeMap::new();
+    let mut end = |sampler: &AnimationSampler| {
+        let last = || buffers.floats::<1>(sampler.input, 0.0).ok()?.last().map(|[t]| *t);
+        *known.entry(sampler.input).or_insert_with(last)
+    };
     let told = |Animation { name, samplers, .. }: &Animation| scene::Animation {
         name: name.clone(),
-        seconds: samplers.iter().filter_map(end).filter(|t| t.is_finite()).fold(0.0, f32::max),
+        seconds: samplers.iter().filter_map(&mut end).filter(|t| t.is_finite()).fold(0.0, f32::max),
     };
     buffers.document.animations.iter().map(told).collect()
 }

@@ -37,10 +37,13 @@ fn find(document: &Document, index: usize, node: &Node, to_world: &DAffine3) -> 
         ..CameraDesc::default()
     };
     match (&camera.perspective, &camera.orthographic) {
-        (Some(perspective), _) => desc.vfov = Some(perspective.yfov.to_degrees()),
-        (None, Some(orthographic)) => {
+        (Some(perspective), _) if perspective.yfov > 0.0 && perspective.yfov.to_degrees() < 179.0 => {
+            desc.vfov = Some(perspective.yfov.to_degrees());
+        }
+        (None, Some(orthographic)) if orthographic.ymag.is_finite() && orthographic.ymag != 0.0 => {
             desc.orthographic = Some(OrthographicDesc { height: 2.0 * orthographic.ymag.abs() });
         }
+        (Some(_), _) | (None, Some(_)) => return Err(FileError::new("it has no angle and no height of view")),
         (None, None) => return Err(FileError::new(format!("camera {index} is of no kind"))),
     }
     let lens = camera.name.clone();

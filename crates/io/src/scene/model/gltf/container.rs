@@ -6,7 +6,8 @@ use std::borrow::Cow;
 use std::path::Path;
 
 use base64::Engine;
-use base64::engine::general_purpose::STANDARD;
+use base64::alphabet;
+use base64::engine::{DecodePaddingMode, GeneralPurpose, GeneralPurposeConfig};
 
 use crate::error::{At, FileError};
 use crate::scene::model::files::Files;
@@ -20,7 +21,8 @@ pub(super) struct Container<'a> {
 impl<'a> Container<'a> {
     pub(super) fn open(bytes: &'a [u8]) -> Result<Self, FileError> {
         if !bytes.starts_with(b"glTF") {
-            return Ok(Self { json: bytes, bytes: None });
+            const MARK: &[u8] = b"\xef\xbb\xbf";
+            return Ok(Self { json: bytes.strip_prefix(MARK).unwrap_or(bytes), bytes: None });
         }
         let word = |at: usize| -> Result<usize, FileError> {
             let word = bytes.get(at..at + 4).and_then(|b| b.try_into().ok()).map(u32::from_le_bytes);
@@ -50,13 +52,19 @@ impl<'a> Container<'a> {
     }
 }
 
+/// With padding or without.
+const BASE64: GeneralPurpose = GeneralPurpose::new(
+    &alphabet::STANDARD,
+    GeneralPurposeConfig::new().with_decode_padding_mode(DecodePaddingMode::Indifferent),
+);
+
 /// The bytes that a URI names, in it or in a file.
 pub(super) fn resolve(uri: &str, files: Files<'_>) -> Result<Vec<u8>, FileError> {
     if let Some(data) = uri.strip_prefix("data:") {
         let Some((_, data)) = data.split_once(";base64,") else {
             return Err(FileError::new("a data URI is not in base64"));
         };
-        return STANDARD.decode(data.trim_end()).map_err(|e| FileError::new(format!("a data URI is damaged: {e}")));
+        return BASE64.decode(data.trim_end()).map_err(|e| FileError::new(format!("a data URI is damaged: {e}")));
     }
     let path = files.find(Path::new(&*decode(uri)));
     let bytes = path.and_then(|path| Ok(files.read(&path)?));

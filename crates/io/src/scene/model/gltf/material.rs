@@ -6,7 +6,7 @@
 //! | clearcoat | coat, with normals of its own |
 //! | sheen | fuzz, of the weight of its brightest channel |
 //! | transmission | transmission; a sheet (thin-walled) unless there is a volume |
-//! | volume | transmission_color at transmission_depth; the base colour tints only sheets |
+//! | volume | transmission_color at transmission_depth, with the base colour over its thickness |
 //! | dispersion | transmission_dispersion |
 //! | specular, ior | specular_weight, specular_color, specular_ior; partly metal where it reflects more than a quarter |
 //! | iridescence | thin_film |
@@ -50,6 +50,8 @@ pub(super) struct Materials<'a> {
     names: BTreeMap<(Option<usize>, Painted), String>,
     /// How many there are of a name.
     counts: BTreeMap<String, usize>,
+    /// The fronts of those that have one side.
+    fronts: BTreeMap<String, String>,
 }
 
 /// What vertices say to materials.
@@ -59,11 +61,13 @@ pub(super) struct Painted {
     pub(super) colors: bool,
     /// Whether they have alphas.
     pub(super) alphas: bool,
+    /// Whether what shines does so to both sides: the mesh is open.
+    pub(super) both_sides: bool,
 }
 
 impl<'a> Materials<'a> {
     pub(super) fn new(document: &'a Document, pictures: &'a Pictures, file: &'a str) -> Self {
-        Self { document, pictures, file, names: BTreeMap::new(), counts: BTreeMap::new() }
+        Self { document, pictures, file, names: BTreeMap::new(), counts: BTreeMap::new(), fronts: BTreeMap::new() }
     }
 
     /// The name of a material, of the default one if there is no index, that is in the scene now.
@@ -74,6 +78,9 @@ impl<'a> Materials<'a> {
         desc: &mut SceneDesc,
         warnings: &mut Vec<Warning>,
     ) -> String {
+        if let Some(missing) = index.filter(|&i| i >= self.document.materials.len()) {
+            warnings.push(Warning::new("there is no such material").part(format!("material {missing}")));
+        }
         let index = index.filter(|&i| i < self.document.materials.len());
         if let Some(known) = self.names.get(&(index, painted)) {
             return known.clone();
@@ -93,10 +100,26 @@ impl<'a> Materials<'a> {
     }
 }
 
+impl Materials<'_> {
+    /// The name of the front of a material, that is in the scene now.
+    pub(super) fn front(&mut self, desc: &mut SceneDesc, of: &str) -> String {
+        let front = || {
+            let mask = MaterialDesc::Mask(Mask::one_sided(Name::new(of)));
+            insert(&mut desc.material, format!("{of}.front"), mask)
+        };
+        self.fronts.entry(of.to_owned()).or_insert_with(front).clone()
+    }
+}
+
 impl Material {
     /// Whether parts of it can be missing.
     pub(super) fn uses_alpha(&self) -> bool {
         matches!(self.alpha_mode.as_deref(), Some("MASK" | "BLEND"))
+    }
+
+    /// Whether it sends out light.
+    pub(super) fn shines(&self) -> bool {
+        self.emissive_factor != [0.0; 3] || self.extensions.contains_key("KHR_materials_unlit")
     }
 
     /// Whether it hides what is behind it from its front only. What light goes through has two sides.
@@ -106,10 +129,12 @@ impl Material {
     }
 }
 
-/// The name of the front of a material, that is in the scene now.
-pub(super) fn front(desc: &mut SceneDesc, of: &str) -> String {
-    let name = format!("{of}.front");
-    desc.material.entry(name.clone()).or_insert_with(|| MaterialDesc::Mask(Mask::one_sided(Name::new(of))));
+/// Puts something under a name that nothing else has.
+fn insert<T: PartialEq>(all: &mut BTreeMap<String, T>, mut name: String, value: T) -> String {
+    while all.get(&name).is_some_and(|other| *other != value) {
+        name.push('\'');
+    }
+    all.insert(name.clone(), value);
     name
 }
 
@@ -139,6 +164,11 @@ impl Maker<'_, '_> {
         if let Some(leaf) = self.extension::<Leaf>("KHR_materials_diffuse_transmission") {
             let (texture, factor) = (leaf.diffuse_transmission_texture.as_ref(), leaf.diffuse_transmission_factor);
             let share = self.alpha_times(texture, factor, "through");
+            self.warn("where light goes through it and is scattered, it has no gloss");
+            if extensions.contains_key("KHR_materials_volume") && !extensions.contains_key("KHR_materials_transmission")
+            {
+                self.warn("its volume is ignored");
+            }
             let color = leaf.diffuse_transmission_color_factor.unwrap_or([1.0; 3]);
             let info = leaf.diffuse_transmission_color_texture.as_ref();
             let transmittance = self.color(info, color, Encoding::Auto, "through-color");
@@ -166,9 +196,7 @@ impl Maker<'_, '_> {
 
     /// A material that others are made of.
     pub(super) fn part(&mut self, part: &str, material: MaterialDesc) -> Name {
-        let name = format!("{}.{part}", self.name);
-        self.desc.material.insert(name.clone(), material);
-        Name::new(&name)
+        Name::new(&insert(&mut self.desc.material, format!("{}.{part}", self.name), material))
     }
 
     fn opacity(&mut self, mode: Option<&str>, alpha: Color) -> Option<Scalar> {
@@ -262,6 +290,9 @@ impl Maker<'_, '_> {
                 self.channel(film.iridescence_texture.as_ref(), Channel::Red, film.iridescence_factor, "film");
             p.thin_film_ior = bounded(film.iridescence_ior.unwrap_or(1.3), 1.0, 5.0);
             // Nanometres to micrometres.
+            if film.iridescence_thickness_maximum.is_some_and(|thickness| thickness > 2000.0) {
+                self.warn("its film is taken as 2000 nm thick at most");
+            }
             let [least, most] =
                 [(film.iridescence_thickness_minimum, 100.0), (film.iridescence_thickness_maximum, 400.0)]
                     .map(|(thickness, default)| bounded(thickness.unwrap_or(default) * 1e-3, 0.0, 2.0));
@@ -285,7 +316,10 @@ impl Maker<'_, '_> {
             p.transmission_color =
                 Rgb(volume.attenuation_color.unwrap_or([1.0; 3]).map(|c| bounded(c, 0.0, 1.0))).into();
             match distance {
-                Some(distance) => p.transmission_depth = distance,
+                Some(distance) => {
+                    p.transmission_depth = distance;
+                    self.tint_inside(p, volume.thickness_factor);
+                }
                 None => p.transmission_color = p.base_color.clone(),
             }
             // 20 over Abbe's number.
@@ -297,12 +331,28 @@ impl Maker<'_, '_> {
         }
     }
 
+    /// The base colour tints what goes through, besides what is inside: as if that were inside, too, in its full thickness.
+    fn tint_inside(&mut self, p: &mut Principled, thickness: f32) {
+        let base = p.base_color.rgb();
+        if base == Some(Rgb::grey(1.0)) {
+            return;
+        }
+        let (Some(Rgb(base)), Some(Rgb(inside))) = (base, p.transmission_color.rgb()) else {
+            return self.warn("the texture of its base colour does not tint what goes through it");
+        };
+        let turns = p.transmission_depth / thickness;
+        let tinted = [0, 1, 2].map(|i| inside[i] * libm::powf(base[i], turns));
+        p.transmission_color = Rgb(tinted.map(|c| bounded(c, 0.0, 1.0))).into();
+        self.warn("its base colour is taken for that of what is inside, as thick as it says");
+    }
+
     fn emission(&mut self, p: &mut Principled) {
         let factor = self.material.emissive_factor;
         let brightest = factor.into_iter().filter(|c| c.is_finite()).fold(0.0, f32::max);
         if brightest > 0.0 {
             let strength: EmissiveStrength = self.extension("KHR_materials_emissive_strength").unwrap_or_default();
             let luminance = LUMENS_PER_WATT * brightest * strength.emissive_strength.unwrap_or(1.0);
+            p.emission_two_sided = self.painted.both_sides;
             p.emission_luminance = bounded(luminance, 0.0, 1e9);
             let color = factor.map(|c| c / brightest);
             p.emission_color = self.color(self.material.emissive_texture.as_ref(), color, Encoding::Auto, "emission");
@@ -321,9 +371,7 @@ impl Maker<'_, '_> {
 
     /// A texture of the material, by a name of its own.
     pub(super) fn texture(&mut self, part: &str, texture: TextureDesc) -> Name {
-        let name = format!("{}.{part}", self.name);
-        self.desc.texture.insert(name.clone(), texture);
-        Name::new(&name)
+        Name::new(&insert(&mut self.desc.texture, format!("{}.{part}", self.name), texture))
     }
 
     /// A function of a number, by its values at some.

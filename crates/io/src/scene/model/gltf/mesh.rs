@@ -52,11 +52,17 @@ pub(super) fn read(
     }
     let frames = Frames { vertices: &mut vertices, normals: &mut normals, tangents: &mut tangents };
     morph(buffers, &primitive.targets, weights, frames)?;
-    if let Some(joints) = joints {
-        let frames = Frames { vertices: &mut vertices, normals: &mut normals, tangents: &mut tangents };
-        skin(&attributes, joints, frames)?;
+    let is_mirrored = match joints {
+        Some(joints) => {
+            let frames = Frames { vertices: &mut vertices, normals: &mut normals, tangents: &mut tangents };
+            skin(&attributes, joints, frames)?
+        }
+        None => false,
+    };
+    let mut triangles = triangles(&attributes, mode, count)?;
+    if is_mirrored {
+        turn_round(&mut triangles);
     }
-    let triangles = triangles(&attributes, mode, count)?;
     // Pictures of glTF hang from v = 0 down.
     let [uvs, uvs_1] = [uvs, uvs_1].map(|uvs| uvs.into_iter().map(|[u, v]| [finite(u), finite(1.0 - v)]).collect());
     let alphas = colors.iter().map(|[.., alpha]| finite(*alpha).clamp(0.0, 1.0));
@@ -70,8 +76,12 @@ pub(super) fn place(mesh: &mut MeshData, to_world: &DAffine3) {
     let MeshData { vertices, normals, tangents, .. } = mesh;
     transform(to_world, Frames { vertices, normals, tangents });
     if to_world.matrix3.determinant() < 0.0 {
-        mesh.triangles.iter_mut().for_each(|t| t.swap(1, 2));
+        turn_round(&mut mesh.triangles);
     }
+}
+
+fn turn_round(triangles: &mut [[u32; 3]]) {
+    triangles.iter_mut().for_each(|t| t.swap(1, 2));
 }
 
 fn finite(number: f32) -> f32 {
@@ -169,7 +179,8 @@ fn double(v: [f32; 3]) -> DVec3 {
     DVec3::from(v.map(f64::from))
 }
 
-fn skin(attributes: &Attributes<'_>, joints: &[DAffine3], mut frames: Frames<'_>) -> Result<(), FileError> {
+/// Moves vertices with the joints on which they hang; whether that mirrors most of them.
+fn skin(attributes: &Attributes<'_>, joints: &[DAffine3], mut frames: Frames<'_>) -> Result<bool, FileError> {
     let mut sums = vec![(DAffine3::ZERO, 0.0); frames.vertices.len()];
     for set in 0.. {
         let ids = attributes.numbers::<4>(&format!("JOINTS_{set}"))?;
@@ -187,10 +198,13 @@ fn skin(attributes: &Attributes<'_>, joints: &[DAffine3], mut frames: Frames<'_>
             }
         }
     }
+    let (mut count, mut mirrored) = (0_usize, 0_usize);
     for (i, (mut sum, total)) in sums.into_iter().enumerate().filter(|(_, (_, total))| *total > 0.0) {
         sum.matrix3 *= 1.0 / total;
         sum.translation /= total;
+        count += 1;
+        mirrored += usize::from(sum.matrix3.determinant() < 0.0);
         transform(&sum, frames.one(i));
     }
-    Ok(())
+    Ok(2 * mirrored > count)
 }

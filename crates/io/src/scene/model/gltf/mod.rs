@@ -97,6 +97,9 @@ fn scene(document: &Document, wanted: Option<&str>, warnings: &mut Vec<Warning>)
         return choose("scene", wanted, document.scenes.iter().map(|scene| scene.name.as_str()));
     }
     let scene = document.scene.unwrap_or(0);
+    if document.scene.is_some() && scene >= document.scenes.len() {
+        return Err(accessor::missing("scene", scene));
+    }
     if document.scenes.len() > 1 {
         let other = usize::from(scene == 0);
         let message = format!("of {} scenes number {scene} is read alone", document.scenes.len());

@@ -49,6 +49,9 @@ impl Maker<'_, '_> {
         // Once nothing but what `specular` says: as if the index were endless.
         let is_endless = ior == 0.0;
         p.specular_ior = if is_endless { LARGEST_INDEX } else { bounded(ior, 1.0, LARGEST_INDEX) };
+        if !is_endless && p.specular_ior != ior {
+            self.warn(&format!("its index of refraction {ior} is taken as {}", p.specular_ior));
+        }
         let specular: Option<Specular> = self.extension("KHR_materials_specular");
         if specular.is_none() && !is_endless {
             return;
@@ -100,8 +103,24 @@ impl Maker<'_, '_> {
         self.mirror = Some(Mirror { share, color });
     }
 
-    /// The material, of which a part may be metal.
+    /// The material. What `specular` says does not hold for the part of it that is metal.
     pub(super) fn partly_metal(&mut self, p: Principled) -> MaterialDesc {
+        let white = Color::from(Rgb::grey(1.0));
+        let is_plain = self.mirror.is_none() && p.specular_weight.number() == Some(1.0) && p.specular_color == white;
+        let share = p.base_metalness.clone();
+        if is_plain || share.number() == Some(0.0) {
+            return self.mirrored(p);
+        }
+        let metal =
+            Principled { base_metalness: 1.0.into(), specular_weight: 1.0.into(), specular_color: white, ..p.clone() };
+        let other = self.mirrored(Principled { base_metalness: 0.0.into(), ..p });
+        let a = self.part("base", other);
+        let b = self.part("metal", MaterialDesc::Principled(Box::new(metal)));
+        MaterialDesc::Mix(Mix { a, b, share })
+    }
+
+    /// Of which a part reflects as metal does.
+    fn mirrored(&mut self, p: Principled) -> MaterialDesc {
         let Some(Mirror { share, color }) = self.mirror.take() else { return MaterialDesc::Principled(Box::new(p)) };
         let metal = Principled {
             base_color: color,
@@ -109,8 +128,8 @@ impl Maker<'_, '_> {
             specular_color: Rgb::grey(1.0).into(),
             ..p.clone()
         };
-        let a = self.part("base", MaterialDesc::Principled(Box::new(p)));
-        let b = self.part("metal", MaterialDesc::Principled(Box::new(metal)));
+        let a = self.part("dielectric", MaterialDesc::Principled(Box::new(p)));
+        let b = self.part("mirror", MaterialDesc::Principled(Box::new(metal)));
         MaterialDesc::Mix(Mix { a, b, share })
     }
 }

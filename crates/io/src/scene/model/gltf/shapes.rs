@@ -13,7 +13,7 @@ use crate::scene::model::Model;
 use crate::scene::model::gltf::accessor::{Buffers, missing};
 use crate::scene::model::gltf::closed::is_closed;
 use crate::scene::model::gltf::document::{Document, Material, Mesh, Node, Primitive};
-use crate::scene::model::gltf::material::{self, Materials, Painted};
+use crate::scene::model::gltf::material::{Materials, Painted};
 use crate::scene::model::gltf::{mesh, node, tangents};
 use crate::warning::Warning;
 
@@ -59,10 +59,19 @@ pub(super) fn read(
             Some(mapping) if data.tangents.is_empty() => tangents::make(&mut data, &mapping),
             Some(_) => {}
         }
-        let painted = Painted { colors: !data.colors.is_empty(), alphas: !data.alphas.is_empty() };
+        let is_open = (said.is_one_sided() || said.shines()) && !is_closed(&data);
+        let painted = Painted {
+            colors: !data.colors.is_empty(),
+            alphas: !data.alphas.is_empty(),
+            both_sides: is_open && said.double_sided,
+        };
         let mut material = materials.name(primitive.material, painted, &mut model.desc, &mut model.warnings);
-        if said.is_one_sided() && !is_closed(&data) {
-            material = material::front(&mut model.desc, &material);
+        if is_open && said.is_one_sided() {
+            material = materials.front(&mut model.desc, &material);
+        }
+        if group.weights.iter().zip(&primitive.targets).any(|(weight, target)| *weight != 0.0 && moves_more(target)) {
+            let warning = Warning::new("of what morph targets change, places, normals and tangents are read");
+            model.warnings.push(warning.part(format!("node {}", group.node)));
         }
         let file = format!("{}#node{}", materials.file, group.node);
         let places = if joints.is_some() { &[DAffine3::IDENTITY] } else { &group.places[..] };
@@ -82,6 +91,11 @@ pub(super) fn read(
         }
     }
     Ok(())
+}
+
+/// Whether a morph target changes more than is read.
+fn moves_more(target: &BTreeMap<String, usize>) -> bool {
+    target.keys().any(|name| !matches!(&**name, "POSITION" | "NORMAL" | "TANGENT"))
 }
 
 /// Nodes with the same mesh in the same pose together.
@@ -128,9 +142,8 @@ pub(super) fn is_plain(node: &Node) -> bool {
 
 /// Whether copies of a primitive of so many triangles share its memory. Those that shine would hardly be found.
 pub(super) fn is_shared(document: &Document, primitive: &Primitive, copies: u64, triangles: u64) -> bool {
-    let shines = |m: &Material| m.emissive_factor != [0.0; 3] || m.extensions.contains_key("KHR_materials_unlit");
     let material = primitive.material.and_then(|index| document.materials.get(index));
-    copies > 1 && copies.saturating_mul(triangles) > FEW && !material.is_some_and(shines)
+    copies > 1 && copies.saturating_mul(triangles) > FEW && !material.is_some_and(Material::shines)
 }
 
 /// From where the joints of a skin were when it was bound to where they are in the world.

@@ -75,7 +75,10 @@ impl Pictures {
         file: &str,
         warnings: &mut Vec<Warning>,
     ) -> Option<ImageTexture> {
-        let texture = document.textures.get(info.index)?;
+        let Some(texture) = document.textures.get(info.index) else {
+            warnings.push(Warning::new("there is no such texture").part(format!("texture {}", info.index)));
+            return None;
+        };
         let Some(index) = texture.picture() else {
             let warning = Warning::new("the texture is left out: it has no picture of a known format");
             warnings.push(warning.part(format!("texture {}", info.index)));
