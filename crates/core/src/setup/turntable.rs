@@ -52,9 +52,11 @@ impl Turntable {
     /// axis.
     pub fn fit(&self, camera: &mut CameraDesc, aspect: f32) {
         if self.is_inside {
+            /// Down for each metre ahead: more stands on the floor than hangs from the ceiling.
+            const DOWN: f32 = 0.2;
             let ahead = (Vec3::from(camera.look_at) - Vec3::from(camera.look_from)).with_y(0.0);
             camera.look_from = self.center.into();
-            camera.look_at = (self.center + ahead).into();
+            camera.look_at = (self.center + ahead - DOWN * ahead.length() * Vec3::Y).into();
             return;
         }
         let back = (Vec3::from(camera.look_from) - Vec3::from(camera.look_at)).normalize_or(Vec3::Z);
@@ -192,7 +194,8 @@ mod tests {
         let ahead = |view: &View| Vec3::from(view.camera.look_at) - Vec3::from(view.camera.look_from);
         assert_eq!(view.camera.look_from, [0.0; 3]);
         assert_eq!((half.camera.look_from, half.environment), ([0.0; 3], sky));
-        assert!((ahead(&view) + ahead(&turntable.turned(&view, 0.5))).length() < 1e-5 && ahead(&view).y == 0.0);
+        let [one, other] = [ahead(&view), ahead(&turntable.turned(&view, 0.5))];
+        assert!((one + other).with_y(0.0).length() < 1e-5 && one.y == other.y && one.y < 0.0, "{one} {other}");
     }
 
     #[test]
