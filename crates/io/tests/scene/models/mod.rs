@@ -62,7 +62,7 @@ fn what_is_far_from_the_origin_is_told_of() {
     let said = |x| model("t.obj", &at(x), None).warnings.iter().map(ToString::to_string).collect::<String>();
     assert_eq!((said(0.0), said(500.0)), (String::new(), String::new()));
     let far = said(4_000_000.0);
-    assert!(far.contains("places are rounded to 0.47683716 of 1 metres\n  --> "), "{far}");
+    assert!(far.contains("places are rounded to 0.47683728 of 1 metres\n  --> "), "{far}");
 }
 
 #[test]
