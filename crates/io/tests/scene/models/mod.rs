@@ -8,6 +8,7 @@ mod glb;
 mod gltf;
 mod gltf_materials;
 mod obj;
+mod ply;
 mod stl;
 
 use std::fs;

@@ -8,7 +8,6 @@ mod material;
 mod meshes;
 mod mtl;
 mod pictures;
-mod polygon;
 
 use std::collections::{BTreeMap, BTreeSet, HashMap};
 use std::path::{Path, PathBuf};
@@ -20,7 +19,7 @@ use glam::{DVec3, Vec3};
 
 use crate::error::{At, Error, FileError};
 use crate::memory::Memory;
-use crate::scene::ReadOptions;
+use crate::scene::{ReadOptions, polygon};
 use crate::scene::model::Model;
 use crate::scene::model::files::{Files, Input};
 use crate::scene::model::lines::Lines;
