@@ -7,6 +7,7 @@ mod draco;
 mod glb;
 mod gltf;
 mod gltf_materials;
+mod mtl;
 mod obj;
 mod ply;
 mod stl;

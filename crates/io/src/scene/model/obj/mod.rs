@@ -8,6 +8,7 @@ mod material;
 mod meshes;
 mod mtl;
 mod pictures;
+mod settle;
 
 use std::collections::{BTreeMap, BTreeSet, HashMap};
 use std::path::Path;
