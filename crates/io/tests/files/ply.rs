@@ -141,6 +141,28 @@ fn concave_polygons() {
     }
 }
 
+/// One polygon that turns this way and that, at every corner of the file.
+#[test]
+fn polygons_of_many_corners_end() {
+    for (count, told) in [(1_u32 << 18, 0), ((1 << 18) + 1, 1)] {
+        let mut bytes = format!(
+            "ply\nformat binary_little_endian 1.0\nelement vertex {count}\nproperty float x\nproperty float y\n\
+             property float z\nelement face 1\nproperty list uint uint vertex_indices\nend_header\n"
+        )
+        .into_bytes();
+        for i in 0..count {
+            let place = [(i.wrapping_mul(2_654_435_761) >> 8) as f32, (i.wrapping_mul(40_503) % 65_536) as f32, 0.0];
+            place.iter().for_each(|c| bytes.extend(c.to_le_bytes()));
+        }
+        std::iter::once(count).chain(0..count).for_each(|i| bytes.extend(i.to_le_bytes()));
+        let start = Instant::now();
+        let (mesh, warnings) = read_ply_bytes("a.ply", &bytes).unwrap();
+        println!("{:?}", start.elapsed());
+        assert_eq!((mesh.triangles.len() as u32, warnings.len()), (count - 2, told), "{warnings:?}");
+        assert!(start.elapsed() < Duration::from_secs(5), "{:?}", start.elapsed());
+    }
+}
+
 /// The same in binary.
 fn binary(big_endian: bool) -> Vec<u8> {
     let format = if big_endian { "binary_big_endian" } else { "binary_little_endian" };
