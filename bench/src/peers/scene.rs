@@ -120,7 +120,7 @@ fn add(desc: &mut SceneDesc, shape: Shape, folder: &Path) -> Result<(), Box<dyn 
             desc.shape.quad.push(QuadDesc { corner, u, v, material: Some(material), ..QuadDesc::default() });
         }
         Shape::Ply { file, material } => {
-            let mesh = eyebeam_io::scene::ply::read_ply(&folder.join(file))?;
+            let (mesh, _) = eyebeam_io::scene::ply::read_ply(&folder.join(file))?;
             let (vertices, triangles, normals) = (mesh.vertices, mesh.triangles, mesh.normals);
             let material = Some(material);
             desc.shape.mesh.push(MeshDesc { vertices, triangles, normals, material, ..MeshDesc::default() });

@@ -99,7 +99,7 @@ impl Asset for MeshData {
     }
 
     fn read(name: &str, bytes: &[u8]) -> Result<(Self, Vec<Warning>), Error> {
-        Ok((read_ply_bytes(name, bytes)?, Vec::new()))
+        read_ply_bytes(name, bytes)
     }
 }
 

@@ -7,6 +7,7 @@ mod merge;
 mod model;
 mod nesting;
 pub mod ply;
+mod polygon;
 mod source;
 mod textures;
 mod toml;

@@ -11,14 +11,26 @@ use crate::corpus::corpus;
 use crate::flaw;
 
 fn read(text: &str) -> MeshData {
-    read_ply_bytes("a.ply", text.as_bytes()).unwrap_or_else(|e| panic!("{e}"))
+    read_ply_bytes("a.ply", text.as_bytes()).unwrap_or_else(|e| panic!("{e}")).0
+}
+
+/// What is told of, each after its line.
+fn said(text: &str) -> Vec<String> {
+    let (_, warnings) = read_ply_bytes("a.ply", text.as_bytes()).unwrap();
+    let said = warnings.into_iter().map(|warning| {
+        let place = warning.place.unwrap();
+        assert_eq!(place.file, "a.ply");
+        let At::Line(line) = place.at else { panic!("{:?}", place.at) };
+        format!("{line}: {}", warning.message)
+    });
+    said.collect()
 }
 
 fn try_ply(bytes: &[u8]) -> Option<MeshData> {
     let start = Instant::now();
     let read = read_ply_bytes("a.ply", bytes).map_err(|error| flaw(error, bytes));
     assert!(start.elapsed() < Duration::from_secs(5), "{:?}", start.elapsed());
-    let mesh = read.ok()?;
+    let mesh = read.ok()?.0;
     let vertices = mesh.vertices.len();
     assert!(mesh.vertices.iter().flatten().all(|c| c.is_finite()));
     assert!(mesh.triangles.iter().flatten().all(|&i| (i as usize) < vertices));
@@ -70,6 +82,85 @@ fn colours_of_vertices() {
     let floats = read(&text("float", ["r", "g", "b"], ["0.5 2 0.25", "-1 nan 0", "inf 1 1"])).colors;
     assert_eq!(floats, [[0.5, 2.0, 0.25], [0.0; 3], [0.0, 1.0, 1.0]]);
     assert!(read(&text("uchar", ["red", "green", "alpha"], ["1 2 3"; 3])).colors.is_empty());
+    // Of other whole numbers the largest tells up to what they count.
+    let bytes = read(&text("uchar", ["red", "green", "blue"], ["255 0 188", "0 0 0", "1 2 3"])).colors;
+    for kind in ["char", "short", "int", "uint"] {
+        assert_eq!(
+            read(&text(kind, ["red", "green", "blue"], ["255 0 188", "0 0 0", "1 2 3"])).colors,
+            bytes,
+            "{kind}"
+        );
+    }
+    let words = read(&text("int", ["red", "green", "blue"], ["65535 0 48316", "0 -1 nan", "257 514 771"])).colors;
+    assert_eq!((words[0], words[1][..2].to_vec(), words[2]), (bytes[0], vec![0.0; 2], bytes[2]));
+    let longs = read(&text("uint", ["red", "green", "blue"], ["4000000000 0 0"; 3])).colors;
+    assert_eq!(longs[0], [1.0, 0.0, 0.0]);
+}
+
+#[test]
+fn what_is_not_read_is_told_of() {
+    let expected = [
+        "4: the elements `camera`, `edge` are not read",
+        "7: the property `tag` of the element `vertex` is not read",
+        "17: the properties `red`, `texcoord` of the element `face` are not read",
+        "17: a face of fewer than three corners is dropped",
+    ];
+    assert_eq!(said(TEXT), expected);
+    // Nothing of what is plain.
+    let face = "element face 1\nproperty list uchar int vertex_indices\nend_header\n";
+    let plain = format!("{HEAD}{face}{FOUR}3 0 1 2\n \r\n");
+    assert_eq!(said(&plain), [""; 0]);
+    assert_eq!(said(&format!("{plain}3 0 1 2\n")), ["16: 7 bytes after the last element are not read"]);
+    let picture =
+        plain.replacen("1.0\n", "1.0\ncomment TextureFile my wood.png\ncomment TextureFiles\ncomment TextureFile\n", 1);
+    assert_eq!(said(&picture), ["3: the picture `my wood.png` is not read"]);
+    let many: String = (0..50).map(|i| format!("property float p{i}\n")).collect();
+    let many = HEAD.replace("property float x", &format!("{many}property float x"));
+    let many = format!("{many}{face}{}3 0 1 2", FOUR.replace('\n', &format!("{}\n", " 0".repeat(50))));
+    assert!(said(&many)[0].ends_with("`p7` and 42 more of the element `vertex` are not read"), "{:?}", said(&many));
+}
+
+/// An arrow whose corner 3 lies inwards: its triangles lie on it alone, wherever the list begins, and whatever comes first.
+#[test]
+fn concave_polygons() {
+    let places = [[0, 0], [2, 1], [0, 2], [1, 1]];
+    let vertices: String = places.iter().map(|[x, y]| format!("{x} {y} 0\n")).collect();
+    let list = "element face 1\nproperty list uchar int vertex_indices\n";
+    let head = HEAD.strip_prefix("ply\nformat ascii 1.0\n").unwrap();
+    for turn in 0..4 {
+        let corners: String = (0..4).map(|i| format!(" {}", (i + turn) % 4)).collect();
+        let late = format!("{HEAD}{list}end_header\n{vertices}4{corners}\n");
+        let early = format!("ply\nformat ascii 1.0\n{list}{head}end_header\n4{corners}\n{vertices}");
+        for text in [late, early] {
+            let mesh = read(&text);
+            assert!(
+                mesh.triangles.len() == 2 && mesh.triangles.iter().all(|t| t.contains(&1) && t.contains(&3)),
+                "{mesh:?}"
+            );
+        }
+    }
+}
+
+/// One polygon that turns this way and that, at every corner of the file.
+#[test]
+fn polygons_of_many_corners_end() {
+    for (count, told) in [(1_u32 << 18, 0), ((1 << 18) + 1, 1)] {
+        let mut bytes = format!(
+            "ply\nformat binary_little_endian 1.0\nelement vertex {count}\nproperty float x\nproperty float y\n\
+             property float z\nelement face 1\nproperty list uint uint vertex_indices\nend_header\n"
+        )
+        .into_bytes();
+        for i in 0..count {
+            let place = [(i.wrapping_mul(2_654_435_761) >> 8) as f32, (i.wrapping_mul(40_503) % 65_536) as f32, 0.0];
+            place.iter().for_each(|c| bytes.extend(c.to_le_bytes()));
+        }
+        std::iter::once(count).chain(0..count).for_each(|i| bytes.extend(i.to_le_bytes()));
+        let start = Instant::now();
+        let (mesh, warnings) = read_ply_bytes("a.ply", &bytes).unwrap();
+        println!("{:?}", start.elapsed());
+        assert_eq!((mesh.triangles.len() as u32, warnings.len()), (count - 2, told), "{warnings:?}");
+        assert!(start.elapsed() < Duration::from_secs(5), "{:?}", start.elapsed());
+    }
 }
 
 /// The same in binary.
@@ -116,7 +207,8 @@ fn binary(big_endian: bool) -> Vec<u8> {
 #[test]
 fn binary_is_the_same() {
     for big_endian in [false, true] {
-        let mesh = read_ply_bytes("a.ply", &binary(big_endian)).unwrap_or_else(|e| panic!("{e}"));
+        let (mesh, warnings) = read_ply_bytes("a.ply", &binary(big_endian)).unwrap_or_else(|e| panic!("{e}"));
+        assert_eq!(warnings.len(), 4, "{warnings:?}");
         assert_eq!(mesh.triangles, read(TEXT).triangles);
         assert_eq!(mesh.vertices, read(TEXT).vertices);
         assert_eq!(mesh.normals, read(TEXT).normals);
@@ -217,7 +309,7 @@ fn a_million_triangles_are_read_soon() {
         [0, 1, 2].iter().for_each(|k| bytes.extend(((i + k) % vertices).to_le_bytes()));
     }
     let start = Instant::now();
-    let mesh = read_ply_bytes("a.ply", &bytes).unwrap();
+    let (mesh, _) = read_ply_bytes("a.ply", &bytes).unwrap();
     println!("{:?}", start.elapsed());
     assert_eq!(mesh.vertices[649_999], [1_949_997.0, 1_949_998.0, 1_949_999.0]);
     assert_eq!(mesh.triangles[1_299_999], [649_999, 0, 1]);
@@ -229,7 +321,7 @@ fn good_ones() {
     let mut read = 0;
     for path in ["meshes", "mitsuba", "pbrt"].into_iter().flat_map(|folder| corpus(folder, &["ply"])) {
         match read_ply(&path) {
-            Ok(mesh) => assert!(!mesh.triangles.is_empty() && !mesh.vertices.is_empty(), "{}", path.display()),
+            Ok((mesh, _)) => assert!(!mesh.triangles.is_empty() && !mesh.vertices.is_empty(), "{}", path.display()),
             Err(error) => assert!(path.ends_with("points.ply"), "{error}"),
         }
         read += 1;

@@ -34,7 +34,7 @@ impl Files<'_> {
             Self::In(folder) => folder::find(folder, name, false),
             Self::Anywhere(folder) => folder::find(folder, name, true),
             Self::Given(files) => {
-                let path = name.components().collect::<PathBuf>();
+                let path = folder::plain(name);
                 let is_there = path.to_str().is_some_and(|name| files.contains_key(name));
                 if is_there { Ok(path) } else { Err(FileError::new("it is not given")) }
             }

@@ -9,17 +9,23 @@ pub(super) fn of(model: &Path) -> &Path {
     model.parent().filter(|folder| !folder.as_os_str().is_empty()).unwrap_or(Path::new("."))
 }
 
+/// A name as all systems take it: some programs write `tex\a.png` or `./a.png`.
+pub(super) fn plain(name: &Path) -> PathBuf {
+    let text = name.to_string_lossy().replace('\\', "/");
+    Path::new(&text).components().filter(|c| *c != Component::CurDir).collect()
+}
+
 /// Where a file is that a model of the folder names, also outside of it if `is_open`.
 ///
 /// # Errors
 /// If there is none, or its name or a link leads out of the folder and must not.
 pub(super) fn find(folder: &Path, name: &Path, is_open: bool) -> Result<PathBuf, FileError> {
     let hint = "put it beside the model or below, or let it be read where it is with `--allow-outside`";
-    let text = name.to_string_lossy().replace('\\', "/");
-    let name = Path::new(&text);
-    let leads_out = |c: Component<'_>| !matches!(c, Component::Normal(_) | Component::CurDir);
+    let text = name.to_string_lossy();
+    let name = plain(name);
+    let leads_out = |c: Component<'_>| !matches!(c, Component::Normal(_));
     let has_drive = text.get(1..2) == Some(":");
-    if text.is_empty() {
+    if name.as_os_str().is_empty() {
         return Err(FileError::new("it has no name"));
     }
     if text.contains("://") {

@@ -19,7 +19,7 @@ pub(super) struct Lines<'a> {
     text: String,
     /// Of lines that were read.
     count: usize,
-    /// Whether a backslash at its end joins a line with the next.
+    /// Whether a backslash at its end joins a line with the next, unless it stands in a comment.
     joins: bool,
 }
 
@@ -52,6 +52,7 @@ impl<'a> Lines<'a> {
         self.bytes.clear();
         let number = self.count + 1;
         loop {
+            let start = self.bytes.len();
             let left = (LONGEST + 1).saturating_sub(self.bytes.len()) as u64;
             let read = self.source.by_ref().take(left).read_until(b'\n', &mut self.bytes);
             if self.bytes.len() > LONGEST {
@@ -68,7 +69,10 @@ impl<'a> Lines<'a> {
             for end in [b'\n', b'\r'] {
                 self.bytes.pop_if(|last| *last == end);
             }
-            if !self.joins || self.bytes.pop_if(|last| *last == b'\\').is_none() {
+            if !self.joins || self.bytes.get(start..).is_some_and(ends_in_comment) {
+                break;
+            }
+            if self.bytes.pop_if(|last| *last == b'\\').is_none() {
                 break;
             }
             self.bytes.push(b' ');
@@ -77,6 +81,11 @@ impl<'a> Lines<'a> {
         self.text.push_str(&String::from_utf8_lossy(&self.bytes));
         Ok(Some((number, &self.text)))
     }
+}
+
+/// Whether a word of the line, and with it a comment, begins with `#`.
+fn ends_in_comment(line: &[u8]) -> bool {
+    line.ends_with(b"\\") && line.split(u8::is_ascii_whitespace).any(|word| word.starts_with(b"#"))
 }
 
 /// UTF-16 as UTF-8.

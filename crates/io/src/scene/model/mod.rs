@@ -16,12 +16,13 @@ mod up;
 
 use std::path::Path;
 
+use eyebeam_core::color::Rgb;
 use eyebeam_core::desc::{RenderDesc, SceneDesc};
 use eyebeam_core::light::{EnvironmentDesc, NoLight};
-use eyebeam_core::material::{Lambertian, MaterialDesc};
+use eyebeam_core::material::{Lambertian, Mask, MaterialDesc};
 use eyebeam_core::names::Name;
 use eyebeam_core::setup::Given;
-use eyebeam_core::texture::{Color, TextureDesc, VertexColor};
+use eyebeam_core::texture::{Color, Scalar, TextureDesc, VertexColor};
 use glam::Vec3;
 
 use crate::error::{Diagnostic, Error, Fault, FileError};
@@ -108,6 +109,16 @@ impl Model {
         let albedo = Color::Texture(Name::new(&name));
         self.desc.texture.insert(name.clone(), TextureDesc::VertexColor(VertexColor::default()));
         self.desc.material.entry(name.clone()).or_insert(MaterialDesc::Lambertian(Lambertian { albedo }));
+        name
+    }
+
+    /// The material that is there by the alphas of vertices.
+    fn vertex_alpha(&mut self, of: &str) -> String {
+        let name = format!("{of} with alpha");
+        let alphas = VertexColor { otherwise: Rgb::grey(1.0), alpha: true };
+        self.desc.texture.insert("vertex-alpha".to_owned(), TextureDesc::VertexColor(alphas));
+        let mask = Mask::new(Name::new(of), Scalar::Texture(Name::new("vertex-alpha")));
+        self.desc.material.insert(name.clone(), MaterialDesc::Mask(mask));
         name
     }
 }

@@ -57,7 +57,7 @@ pub(super) enum Kind {
 
 #[derive(Debug)]
 pub(super) struct Property {
-    name: String,
+    pub(super) name: String,
     pub(super) kind: Kind,
 }
 
@@ -80,17 +80,25 @@ impl Element {
         Some(indices)
     }
 
-    /// Index of the first list of such a name.
-    pub(super) fn list(&self, names: [&str; 2]) -> Option<usize> {
+    /// Index of the list of the corners of faces.
+    pub(super) fn corners(&self) -> Option<usize> {
+        let names = ["vertex_indices", "vertex_index"];
         let is_it = |p: &Property| names.contains(&p.name.as_str()) && matches!(p.kind, Kind::List(..));
         self.properties.iter().position(is_it)
     }
+}
+
+/// Whether it is one that meshes are made of.
+pub(super) fn is_read(element: &Element) -> bool {
+    matches!(element.name.as_str(), "vertex" | "face" | "tristrips")
 }
 
 #[derive(Debug)]
 pub(super) struct Header {
     pub(super) format: Format,
     pub(super) elements: Vec<Element>,
+    /// Pictures that comments name, as MeshLab and others write them, each with its line.
+    pub(super) pictures: Vec<(String, usize)>,
     /// Bytes up to the first value.
     pub(super) length: usize,
     /// Lines of these.
@@ -111,13 +119,15 @@ impl Header {
             return Err(no_ply());
         }
         let (mut format, mut elements, mut length) = (None, Vec::<Element>::new(), 0);
+        let mut pictures = Vec::new();
         for (lines, line) in (1..).zip(text.split_inclusive(|&b| b == separator)) {
             length += line.len();
             let line = std::str::from_utf8(line).unwrap_or("?");
+            pictures.extend(picture(line).map(|name| (name.to_owned(), lines)));
             let is_end = parse_line(line, lines, &mut format, &mut elements).map_err(|e| e.at(At::Line(lines)))?;
             if is_end {
                 let no_format = || FileError::new("the header has no format").hint("add `format ascii 1.0`");
-                return Ok(Self { format: format.ok_or_else(no_format)?, elements, length, lines });
+                return Ok(Self { format: format.ok_or_else(no_format)?, elements, pictures, length, lines });
             }
         }
         Err(FileError::new("the header has no `end_header`").hint("the file is cut off, or no PLY file"))
@@ -132,6 +142,12 @@ impl Header {
             Some(second) => Err(FileError::new(format!("two elements are named `{name}`")).at(At::Line(second.line))),
         }
     }
+}
+
+/// The name after `comment TextureFile`, if the line is that.
+fn picture(line: &str) -> Option<&str> {
+    let name = line.trim().strip_prefix("comment")?.trim_start().strip_prefix("TextureFile")?;
+    Some(name.trim()).filter(|trimmed| !trimmed.is_empty() && name.starts_with(|c: char| c.is_ascii_whitespace()))
 }
 
 /// Whether it was the last one.

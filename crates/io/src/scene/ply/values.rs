@@ -4,7 +4,7 @@ use crate::error::{At, FileError};
 use crate::scene::ply::header::{Kind, Scalar};
 
 /// A source of values.
-pub(super) trait Values {
+pub(super) trait Values: Clone {
     /// The next one.
     fn next(&mut self, scalar: Scalar) -> Result<f64, FileError>;
 
@@ -16,9 +16,13 @@ pub(super) trait Values {
 
     /// The fewest bytes that a property can take.
     fn shortest(&self, kind: Kind) -> usize;
+
+    /// Bytes that are left, but for space alone.
+    fn rest(&self) -> usize;
 }
 
 /// Numbers between spaces.
+#[derive(Clone)]
 pub(super) struct Text<'a> {
     rest: &'a [u8],
     line: usize,
@@ -73,9 +77,14 @@ impl Values for Text<'_> {
     fn shortest(&self, _: Kind) -> usize {
         2
     }
+
+    fn rest(&self) -> usize {
+        self.rest.trim_ascii().len()
+    }
 }
 
 /// Bytes, the first of a number its highest or its lowest.
+#[derive(Clone)]
 pub(super) struct Binary<'a, const BIG_ENDIAN: bool> {
     rest: &'a [u8],
     end: usize,
@@ -131,5 +140,9 @@ impl<const BIG_ENDIAN: bool> Values for Binary<'_, BIG_ENDIAN> {
         match kind {
             Kind::Scalar(scalar) | Kind::List(scalar, _) => scalar.size(),
         }
+    }
+
+    fn rest(&self) -> usize {
+        if self.rest.trim_ascii().is_empty() { 0 } else { self.rest.len() }
     }
 }

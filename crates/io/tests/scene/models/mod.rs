@@ -8,7 +8,9 @@ mod glb;
 mod gltf;
 mod gltf_corners;
 mod gltf_materials;
+mod mtl;
 mod obj;
+mod ply;
 mod stl;
 
 use std::fs;

@@ -9,7 +9,7 @@ use eyebeam_core::film::Wrap;
 use eyebeam_core::material::{MaterialDesc, Principled};
 use eyebeam_core::shape::MeshData;
 use eyebeam_core::texture::{Channel, Encoding, ImageTexture, TextureDesc};
-use eyebeam_io::scene::{SceneFile, read};
+use eyebeam_io::scene::{Files, ReadOptions, SceneFile, read, read_bytes};
 use eyebeam_io::{At, Error, Warning};
 use proptest::prelude::Rng as _;
 use proptest::test_runner::{RngAlgorithm, TestRng};
@@ -43,7 +43,7 @@ fn meshes(desc: &SceneDesc) -> Vec<&MeshData> {
 }
 
 /// What is told of, each after its line or its part.
-fn said(file: &SceneFile) -> Vec<String> {
+pub(super) fn said(file: &SceneFile) -> Vec<String> {
     let at = |w: &Warning| match &w.place.as_ref().unwrap().at {
         At::Line(line) => format!("{line}: {}", w.message),
         At::Part(part) => format!("{part}: {}", w.message),
@@ -54,32 +54,37 @@ fn said(file: &SceneFile) -> Vec<String> {
 }
 
 /// The materials of a library of which each is used once.
-fn library(mtl: &str, files: &[(&str, &[u8])]) -> SceneFile {
+pub(super) fn library(mtl: &str, files: &[(&str, &[u8])]) -> SceneFile {
     let uses = mtl.lines().filter_map(|line| line.strip_prefix("newmtl "));
     let faces: String = uses.map(|name| format!("usemtl {name}\nf 1 2 3\n")).collect();
     let files = [&[("l.mtl", mtl.as_bytes())], files].concat();
     try_model(format!("mtllib l.mtl\n{SQUARE}{faces}"), &files).unwrap()
 }
 
-fn principled<'a>(file: &'a SceneFile, name: &str) -> &'a Principled {
+pub(super) fn principled<'a>(file: &'a SceneFile, name: &str) -> &'a Principled {
     match &file.desc.material[name] {
         MaterialDesc::Principled(p) => p,
         other => panic!("{other:?}"),
     }
 }
 
-fn image<'a>(file: &'a SceneFile, name: &str) -> &'a ImageTexture {
+pub(super) fn image<'a>(file: &'a SceneFile, name: &str) -> &'a ImageTexture {
     match &file.desc.texture[name] {
         TextureDesc::Image(texture) => texture,
         other => panic!("{other:?}"),
     }
 }
 
-fn png() -> Vec<u8> {
+pub(super) fn png() -> Vec<u8> {
+    png_of(&[255, 128, 0])
+}
+
+/// A picture of one colour.
+pub(super) fn png_of(color: &[u8; 3]) -> Vec<u8> {
     let mut bytes = Vec::new();
     let mut encoder = png::Encoder::new(&mut bytes, 2, 1);
     encoder.set_color(png::ColorType::Rgb);
-    encoder.write_header().unwrap().write_image_data(&[255, 128, 0, 255, 128, 0]).unwrap();
+    encoder.write_header().unwrap().write_image_data(&color.repeat(2)).unwrap();
     bytes
 }
 
@@ -130,6 +135,68 @@ fn colors_concave_faces_and_meshes_by_material() {
     assert!(data[0].triangles.iter().all(|t| t.contains(&0) && t.contains(&2)), "{:?}", data[0].triangles);
     assert_eq!(said(&file), ["material `x y`: there is no such material: what has it is grey"]);
     assert!(file.desc.shape.mesh.iter().all(|mesh| mesh.material.as_deref() == Some("vertex-color")));
+}
+
+/// The colours of a file, all of which count to the same.
+#[test]
+fn colors_count_to_1_or_255_or_65535() {
+    let colors = |more: &str| {
+        let file = model(&format!("v 0 0 0 {more}\nv 1 0 0\nv 1 1 0\nf 1 2 3\n"));
+        (meshes(&file.desc)[0].colors.first().copied(), said(&file))
+    };
+    let half = |c: Option<[f32; 3]>| c.is_some_and(|[r, g, b]| r == 1.0 && g == 0.0 && (b - 0.2140).abs() < 2e-3);
+    for silent in ["1 0 0.5", "1 0 0.5 1", "255 0 127.5", "255 0 127.5 255", "255 0 127.5 1", "65535 0 32767"] {
+        let (color, said) = colors(silent);
+        assert!(half(color) && said.is_empty(), "{silent}: {color:?} {said:?}");
+    }
+    for (more, expected) in [
+        ("1 0 0.5 0.9", "1: alphas of vertices are not read"),
+        ("255 0 127.5 128", "1: alphas of vertices are not read"),
+        ("1.2 -1 0.5", "1: colours of vertices above 1 are clamped"),
+    ] {
+        let (color, said) = colors(more);
+        assert!(half(color) && said == [expected], "{more}: {color:?} {said:?}");
+    }
+    for more in ["1 2", "1 2 3 4 5"] {
+        let expected = "1: what follows `v x y z` is neither a weight nor a colour, and not read";
+        assert_eq!(colors(more), (None, vec![expected.to_owned()]));
+    }
+    // Vertices without a colour are white.
+    let file = model("v 0 0 0 255 0 0\nv 1 0 0\nv 1 1 0\nf 1 2 3\n");
+    assert_eq!(meshes(&file.desc)[0].colors, [[1.0, 0.0, 0.0], [1.0; 3], [1.0; 3]]);
+}
+
+#[test]
+fn colors_that_a_material_covers_are_told_of() {
+    let obj = |color: &str| format!("mtllib l.mtl\nv 0 0 0 {color}\nv 1 0 0\nv 1 1 0\nusemtl a\nf 1 2 3\n");
+    let told = |color: &str| said(&try_model(obj(color), &[("l.mtl", b"newmtl a\nKd 1 0 0\n")]).unwrap());
+    assert_eq!(told("1 0 0"), ["colours of vertices are not used where faces have a material"]);
+    assert_eq!(told("1 1 1"), [""; 0]);
+}
+
+/// A comment ends with its line, whatever its last character is.
+#[test]
+fn comments_do_not_go_on() {
+    let file = model(&format!("\u{feff}{SQUARE}# C:\\models\\\nf 1 2 3 # or so \\\nf 1 3\\\n 4\n"));
+    assert_eq!((meshes(&file.desc)[0].triangles.len(), said(&file)), (2, vec![]));
+    let file = library("newmtl a\n# by \\\nKd 0 1 0\n", &[]);
+    assert_eq!(principled(&file, "a").base_color.rgb().unwrap().0, [0.0, 1.0, 0.0]);
+}
+
+/// Names lead to the same files on a disk and in memory.
+#[test]
+fn names_are_plain_everywhere() {
+    let obj = format!("\u{feff}mtllib ./sub\\l.mtl\n{SQUARE}usemtl a\nf 1 2 3\n");
+    let (mtl, png) = (b"\xef\xbb\xbfnewmtl a\nmap_Kd ./wood.png\nmap_Ke tex\\.\\wood.png\n", png());
+    let files: [(&str, &[u8]); 3] = [("sub/l.mtl", mtl), ("sub/wood.png", &png), ("sub/tex/wood.png", &png)];
+    let on_disk = try_model(&obj, &files).unwrap();
+    let given: BTreeMap<_, _> = files.map(|(name, bytes)| (name.to_owned(), bytes.to_vec())).into();
+    let in_memory = read_bytes("m.obj", obj.as_bytes(), Files::Given(&given), &ReadOptions::default()).unwrap();
+    for file in [on_disk, in_memory] {
+        assert_eq!(said(&file), [""; 0]);
+        assert!(image(&file, "a kd").file.ends_with("sub/wood.png"));
+        assert!(image(&file, "a ke").file.ends_with("sub/tex/wood.png"));
+    }
 }
 
 #[test]
@@ -204,7 +271,7 @@ fn materials_become_layers() {
     assert_eq!(glass.transmission_color.rgb().unwrap().0, [0.5, 0.9, 0.9]);
     let MaterialDesc::Mask(thin) = &file.desc.material["thin"] else { panic!() };
     assert_eq!((number(&thin.opacity), thin.of.name()), (0.25, "thin (layer 0)"));
-    let lamp = principled(&file, "lamp");
+    let lamp = principled(&file, "lamp (layer 0)");
     assert!((lamp.emission_luminance / 8.0 - 202.7).abs() < 0.1 && !file.given.light);
     assert_eq!(lamp.emission_color.rgb().unwrap().0, [0.25, 0.5, 1.0]);
     let pbr = principled(&file, "pbr");
@@ -212,14 +279,7 @@ fn materials_become_layers() {
     assert_eq!(parts.map(number), [0.2, 0.3, 0.4, 0.5, 0.6]);
     assert_eq!((number(&pbr.specular_weight), number(&pbr.specular_roughness_anisotropy)), (1.0, 0.7));
     assert_eq!(pbr.specular_rotation, 0.75 * 360.0);
-    assert_eq!(
-        said(&file),
-        [
-            "5: `foo` is not read",
-            "38: `Ns` is not read",
-            "material `lamp`: it shines: its relief and holes are not kept"
-        ]
-    );
+    assert_eq!(said(&file), ["5: `foo` is not read", "38: `Ns` is not read"]);
 }
 
 #[test]

@@ -4,17 +4,18 @@
 //!
 //! - `Kd` and `map_Kd` are the base colour, their product if there are both; a black `Kd` leaves the picture alone, since some
 //!   programs write it so.
-//! - `Ks`: the largest channel weighs the specular lobe of index `Ni` (1.5), the rest is its colour; none with `illum` 0 and 1,
-//!   and whole if there is anything of the extension for PBR. `map_Ks` takes the place of the colour.
+//! - `Ks`: the largest channel weighs the specular lobe of index `Ni` (1.5), the rest is its colour; `map_Ks` takes the place of both.
+//!   None with `illum` 0 and 1, and whole if there is anything of the extension for PBR.
 //! - `Ns` is an exponent of Phong's: alpha = √(2 / (Ns + 2)), roughness = √alpha. Walter et al. 2007, "Microfacet Models for
 //!   Refraction through Rough Surfaces", doi:10.2312/EGWR/EGSR07/195-206, §5.2. `Pr` is the roughness itself.
 //! - `illum` 3 and 5 with a `Ks` brighter than `Kd`: metal of the colour `Ks`, polished if there is no `Ns`.
 //! - `illum` 4, 6, 7 and 9: clear by 1 − `d`; 6 and 7 all clear if `d` is 1 and `Kd` about black. `Tf` is the colour of
 //!   what goes through; without an index but 1 it is a sheet.
-//! - `d` else, and `map_d`: the share of the surface that is there ([`Mask`]); of a picture its alpha, if it has any, as in Blender, and
-//!   else how bright it is, as in three.js.
-//! - `Ke`, `map_Ke`: radiance, on the side of the normal. What shines has no relief and no holes.
-//! - `bump`, `map_Bump`: heights, `-bm` centimetres from black to white; `norm`: normals as of OpenGL.
+//! - `d` else, times `map_d`: the share of the surface that is there ([`Mask`]); of a picture its alpha, if it has any, as in Blender, and
+//!   else how bright it is, as in three.js. 0 leaves the picture alone, as a black `Kd` does.
+//! - `Ke`, `map_Ke`: radiance, on the side of the normal.
+//! - `bump`, `map_Bump`: heights, `-bm` centimetres from black to white; `norm`: normals as of OpenGL, `-bm` their strength. Blender
+//!   writes these as `map_Bump`, too: what [looks like normals](are_normals) is taken as such.
 //! - `Pm` metalness, `Ps` fuzz, `Pc` and `Pcr` coat and its roughness, `aniso` anisotropy, turned by `anisor` of a whole turn; `map_Pr`, `map_Pm` and `map_Ps` take their
 //!   places.
 
@@ -24,8 +25,8 @@ use eyebeam_core::material::{Bump, Mask, MaterialDesc, NormalMap, Principled};
 use eyebeam_core::names::Name;
 use eyebeam_core::texture::{ChannelOf, Color, Encoding, ImageTexture, Mapping, Multiply, Scalar, TextureDesc};
 
-use super::mtl::{Mtl, Part};
-use super::pictures::Pictures;
+use super::mtl::{Map, Mtl, Part};
+use super::pictures::{Pictures, are_normals};
 use crate::scene::model::Model;
 use crate::warning::Warning;
 
@@ -38,30 +39,12 @@ pub(super) fn add(name: &str, mtl: &Mtl, pictures: &mut Pictures<'_>, model: &mu
     let mut principled = Box::<Principled>::default();
     let is_clear = maker.lobes(&mut principled);
     maker.extension(&mut principled);
-    let shines = maker.emission(&mut principled);
-    let normals = maker.picture("norm", Encoding::Linear);
-    let heights = maker.amount("bump");
-    let opacity = if is_clear { 1.0 } else { maker.number("d", 1.0, 1.0) };
-    let opacity = maker.amount("d").unwrap_or(Scalar::Number(opacity));
+    maker.emission(&mut principled);
     let mut layers = vec![MaterialDesc::Principled(principled)];
-    let of = || Name::new("");
-    if let Some(map) = normals {
-        layers.push(MaterialDesc::NormalMap(NormalMap {
-            of: of(),
-            map: Color::Texture(Name::new(&map)),
-            strength: 1.0,
-        }));
-    } else if let Some(height) = heights {
-        let scale = 0.01 * mtl.maps.get("bump").map_or(1.0, |map| map.bump.clamp(-1e4, 1e4));
-        layers.push(MaterialDesc::Bump(Bump { of: of(), height, scale }));
-    }
+    layers.extend(maker.relief());
+    let opacity = maker.opacity(is_clear);
     if opacity.number() != Some(1.0) {
-        layers.push(MaterialDesc::Mask(Mask::new(of(), opacity)));
-    }
-    if shines && layers.len() > 1 {
-        layers.truncate(1);
-        let message = "it shines: its relief and holes are not kept";
-        model.warnings.push(Warning::new(message).part(format!("material `{name}`")));
+        layers.push(MaterialDesc::Mask(Mask::new(Name::new(""), opacity)));
     }
     let mut below = String::new();
     let count = layers.len();
@@ -127,7 +110,11 @@ impl Maker<'_, '_> {
 
     /// A picture of amounts.
     fn amount(&mut self, key: &str) -> Option<Scalar> {
-        let mut image = self.image(key, Encoding::Linear)?;
+        let image = self.image(key, Encoding::Linear)?;
+        Some(self.amount_of(key, image))
+    }
+
+    fn amount_of(&mut self, key: &str, mut image: ImageTexture) -> Scalar {
         let part = self.mtl.maps.get(key).and_then(|map| map.channel);
         // Opaque pictures have lost their alpha.
         let has_alpha = image.pixels.as_ref().is_some_and(|pixels| pixels.channels().is_multiple_of(2));
@@ -137,7 +124,48 @@ impl Maker<'_, '_> {
             let part = ChannelOf { input: Color::Texture(name), channel };
             name = Name::new(&self.texture(&format!("{key} channel"), TextureDesc::Channel(part)));
         }
-        Some(Scalar::Texture(name))
+        Scalar::Texture(name)
+    }
+
+    /// What turns normals, without its material.
+    fn relief(&mut self) -> Option<MaterialDesc> {
+        let strength = |map: &Map| map.bump.clamp(-100.0, 100.0);
+        let turned = |map: String, strength| {
+            let map = Color::Texture(Name::new(&map));
+            Some(MaterialDesc::NormalMap(NormalMap { of: Name::new(""), map, strength }))
+        };
+        let [norm, bump] = ["norm", "bump"].map(|key| self.mtl.maps.get(key));
+        if let Some(norm) = norm
+            && let Some(map) = self.picture("norm", Encoding::Linear)
+        {
+            if bump.is_some_and(|bump| bump.file != norm.file) {
+                self.warn("its `bump` is not used beside its `norm`");
+            }
+            return turned(map, strength(norm));
+        }
+        let (bump, image) = (bump?, self.image("bump", Encoding::Linear)?);
+        if bump.channel.is_none() && image.pixels.as_ref().is_some_and(|pixels| are_normals(pixels)) {
+            return turned(self.texture("bump", TextureDesc::Image(image)), strength(bump));
+        }
+        let (height, scale) = (self.amount_of("bump", image), 0.01 * bump.bump.clamp(-1e4, 1e4));
+        Some(MaterialDesc::Bump(Bump { of: Name::new(""), height, scale }))
+    }
+
+    /// The share that is there.
+    fn opacity(&mut self, is_clear: bool) -> Scalar {
+        let share = if is_clear { 1.0 } else { self.number("d", 1.0, 1.0) };
+        match self.amount("d") {
+            None => Scalar::Number(share),
+            Some(Scalar::Texture(map)) if share > 0.0 && share < 1.0 => {
+                let product = Multiply { a: Color::Texture(map), b: Color::Rgb(Rgb::grey(share)) };
+                Scalar::Texture(Name::new(&self.texture("d times", TextureDesc::Multiply(product))))
+            }
+            Some(map) => map,
+        }
+    }
+
+    fn warn(&mut self, message: &str) {
+        self.model.warnings.push(Warning::new(message).part(format!("material `{}`", self.name)));
     }
 
     /// A picture times a colour; a black or a white one leaves it as it is.
@@ -155,7 +183,7 @@ impl Maker<'_, '_> {
 
     /// The base, the specular lobe and what goes through; whether it is clear.
     fn lobes(&mut self, p: &mut Principled) -> bool {
-        let illum = self.mtl.numbers.get("illum").map(|illum| *illum as i32);
+        let illum = self.mtl.illum();
         let (kd, ks) = (self.color("Kd"), self.color("Ks"));
         if let Some(kd) = kd {
             p.base_color = Color::Rgb(Rgb(kd));
@@ -169,16 +197,15 @@ impl Maker<'_, '_> {
         if let Some(ns) = shininess {
             p.specular_roughness = Scalar::Number((2.0 / (ns + 2.0)).sqrt().sqrt());
         }
-        let is_pbr = ["Pr", "Pm", "Ps", "Pc"].iter().any(|key| self.mtl.numbers.contains_key(key))
-            || ["pr", "pm", "ps"].iter().any(|key| self.mtl.maps.contains_key(key));
         let [kd, ks] = [kd, ks].map(Option::unwrap_or_default);
-        if !is_pbr {
-            let weight = if matches!(illum, Some(0 | 1)) { 0.0 } else { most(ks) };
+        let has_gloss = !matches!(illum, Some(0 | 1));
+        if !self.mtl.is_pbr() {
+            let weight = if has_gloss { most(ks) } else { 0.0 };
             p.specular_weight = Scalar::Number(weight);
             if weight > 0.0 {
                 p.specular_color = Color::Rgb(Rgb(ks.map(|c| c / weight)));
             }
-            if let Some(map) = self.tinted("ks", Some(ks)) {
+            if has_gloss && let Some(map) = self.tinted("ks", Some(ks)) {
                 p.specular_weight = Scalar::Number(1.0);
                 p.specular_color = map;
             }
@@ -204,12 +231,16 @@ impl Maker<'_, '_> {
             Some(4 | 9) => opacity < 1.0,
             _ => false,
         };
+        let filter = self.color("Tf");
+        if !is_clear && filter.is_some_and(|filter| filter != [0.0; 3] && filter != [1.0; 3]) {
+            self.warn("its `Tf` is not used: it is not clear");
+        }
         if is_clear {
             p.transmission_weight = Scalar::Number(if opacity < 1.0 { 1.0 - opacity } else { 1.0 });
             p.specular_weight = Scalar::Number(1.0);
             p.specular_color = Color::Rgb(Rgb::grey(1.0));
             p.geometry_thin_walled = index.is_none_or(|index| index <= 1.0);
-            if let Some(filter) = self.color("Tf").filter(|filter| *filter != [0.0; 3]) {
+            if let Some(filter) = filter.filter(|filter| *filter != [0.0; 3]) {
                 p.transmission_color = Color::Rgb(Rgb(filter));
             }
             if shininess.is_none() {
@@ -240,8 +271,8 @@ impl Maker<'_, '_> {
         p.specular_rotation = 360.0 * self.number("anisor", 0.0, 1.0);
     }
 
-    /// The light that it sends out; whether there is any.
-    fn emission(&mut self, p: &mut Principled) -> bool {
+    /// The light that it sends out.
+    fn emission(&mut self, p: &mut Principled) {
         let ke = self.mtl.colors.get("Ke").map(|color| color.map(|c| c.clamp(0.0, 1e6)));
         let strongest = most(ke.unwrap_or_default());
         let color = if strongest > 0.0 { ke.unwrap_or_default().map(|c| c / strongest) } else { [1.0; 3] };
@@ -249,7 +280,6 @@ impl Maker<'_, '_> {
         let radiance = if strongest > 0.0 || picture.is_none() { strongest } else { 1.0 };
         p.emission_luminance = (radiance * LUMENS_PER_WATT).min(1e9);
         p.emission_color = picture.unwrap_or(Color::Rgb(Rgb(color)));
-        radiance > 0.0
     }
 }
 

@@ -7,20 +7,25 @@
 use std::collections::hash_map::Entry;
 use std::collections::{BTreeMap, HashMap};
 
+use eyebeam_core::color::srgb_decode;
 use eyebeam_core::shape::MeshData;
 use glam::{DVec3, Vec3};
 
 use crate::error::FileError;
 
 /// Of vertices that have no colour, where others have.
-const WHITE: [f32; 3] = [1.0; 3];
+pub(super) const WHITE: [f32; 3] = [1.0; 3];
+/// Stands for that where colours are signals that no one knows yet up to what they count.
+const NO_COLOR: [f32; 3] = [f32::INFINITY; 3];
 
 /// What faces refer to.
 #[derive(Debug, Default)]
 pub(super) struct Points {
     pub(super) positions: Vec<[f32; 3]>,
-    /// As many as positions, or fewer if the last have none.
-    pub(super) colors: Vec<[f32; 3]>,
+    /// Signals; as many as positions, or fewer if the last have none.
+    colors: Vec<[f32; 3]>,
+    /// The largest of these.
+    brightest: f32,
     pub(super) uvs: Vec<[f32; 2]>,
     pub(super) normals: Vec<[f32; 3]>,
 }
@@ -126,8 +131,9 @@ impl Meshes {
                 data.uvs = Vec::new();
             }
             if !data.colors.is_empty() {
-                data.colors.resize(data.vertices.len(), WHITE);
+                data.colors.resize(data.vertices.len(), NO_COLOR);
             }
+            data.colors.iter_mut().for_each(|color| *color = points.light(*color));
             (key, data)
         })
     }
@@ -144,7 +150,7 @@ impl Mesh {
         let position = corner.position as usize;
         data.vertices.push(points.positions.get(position).copied().unwrap_or_default());
         if let Some(&color) = points.colors.get(position) {
-            data.colors.resize(count, WHITE);
+            data.colors.resize(count, NO_COLOR);
             data.colors.push(color);
         }
         let uv = corner.uv.and_then(|uv| points.uvs.get(uv as usize).copied());
@@ -158,13 +164,31 @@ impl Mesh {
 impl Points {
     /// That all take.
     pub(super) fn bytes(&self) -> u64 {
-        let Self { positions, colors, uvs, normals } = self;
+        let Self { positions, colors, uvs, normals, .. } = self;
         (size_of_val(&**positions) + size_of_val(&**colors) + size_of_val(&**uvs) + size_of_val(&**normals)) as u64
     }
 
     /// Gives the last position a colour.
     pub(super) fn color(&mut self, color: [f32; 3]) {
-        self.colors.resize(self.positions.len().saturating_sub(1), WHITE);
+        self.colors.resize(self.positions.len().saturating_sub(1), NO_COLOR);
         self.colors.push(color);
+        self.brightest = color.into_iter().fold(self.brightest, f32::max);
+    }
+
+    /// Up to what colours count: bytes and words of other programs are larger than signals that were rounded.
+    pub(super) fn white(&self) -> f32 {
+        match self.brightest {
+            ..=2.0 => 1.0,
+            ..=255.0 => 255.0,
+            _ => 65535.0,
+        }
+    }
+
+    /// The light that a colour stands for.
+    fn light(&self, color: [f32; 3]) -> [f32; 3] {
+        if color == NO_COLOR {
+            return WHITE;
+        }
+        color.map(|signal| srgb_decode((signal / self.white()).clamp(0.0, 1.0)))
     }
 }

@@ -1,6 +1,6 @@
 //! Wavefront OBJ: polygons with materials of a library (MTL) beside them.
 //!
-//! Read are `v` (also with a colour after x y z, as sRGB signals), `vt`, `vn`, `f`, `s`, `usemtl` and `mtllib`; `o` and `g` change
+//! Read are `v` (also with a colour after x y z, as sRGB signals that count to 1, 255 or 65535), `vt`, `vn`, `f`, `s`, `usemtl` and `mtllib`; `o` and `g` change
 //! nothing, since faces of a material are one mesh. Where a face has no normals it is flat, or smooth within its smoothing group.
 //! The file is read line by line. Wavefront, "Advanced Visualizer Manual", appendix B1, 1993.
 
@@ -8,25 +8,24 @@ mod material;
 mod meshes;
 mod mtl;
 mod pictures;
-mod polygon;
+mod settle;
 
 use std::collections::{BTreeMap, BTreeSet, HashMap};
-use std::path::{Path, PathBuf};
+use std::path::Path;
 use std::sync::Arc;
 
-use eyebeam_core::color::srgb_decode;
 use eyebeam_core::shape::MeshDesc;
 use glam::{DVec3, Vec3};
 
 use crate::error::{At, Error, FileError};
 use crate::memory::Memory;
-use crate::scene::ReadOptions;
 use crate::scene::model::Model;
 use crate::scene::model::files::{Files, Input};
 use crate::scene::model::lines::Lines;
 use crate::scene::model::skipped::Skipped;
+use crate::scene::{ReadOptions, polygon};
 use crate::warning::Warning;
-use meshes::{Corner, Meshes, Normal, Points};
+use meshes::{Corner, Meshes, Normal, Points, WHITE};
 use mtl::Mtl;
 use pictures::Pictures;
 
@@ -67,6 +66,10 @@ struct Reader {
     /// Names after `mtllib`, whole.
     libraries: Vec<String>,
     skipped: Skipped,
+    /// The line of the first colour that is a little too bright.
+    too_bright: Option<usize>,
+    /// The least and the largest alpha of a position, and the line of the least.
+    alphas: Option<(f32, f32, usize)>,
     /// Of any number of corners.
     faces: usize,
     corners: Vec<Corner>,
@@ -84,7 +87,7 @@ impl Reader {
         let (keyword, rest) = line.split_once(|c: char| c.is_ascii_whitespace()).unwrap_or((line, ""));
         let words = || rest.split_ascii_whitespace().take_while(|word| !word.starts_with('#'));
         match keyword {
-            "v" => self.position(words()),
+            "v" => self.position(words(), number),
             "vt" => {
                 let ([u, v, _], _) = numbers(words(), 1)?;
                 push(&mut self.points.uvs, [u, v])
@@ -116,13 +119,40 @@ impl Reader {
         }
     }
 
-    fn position<'a>(&mut self, words: impl Iterator<Item = &'a str>) -> Result<(), FileError> {
-        let ([x, y, z, r, g, b, _], count) = numbers::<7>(words, 3)?;
+    fn position<'a>(&mut self, words: impl Iterator<Item = &'a str>, number: usize) -> Result<(), FileError> {
+        let ([x, y, z, r, g, b, alpha, _], count) = numbers::<8>(words, 3)?;
         push(&mut self.points.positions, [x, y, z])?;
-        if count == 6 {
-            self.points.color([r, g, b].map(|signal| srgb_decode(signal.clamp(0.0, 1.0))));
+        if matches!(count, 6 | 7) {
+            self.points.color([r, g, b]);
+            if [r, g, b].iter().any(|signal| *signal > 1.0) {
+                self.too_bright.get_or_insert(number);
+            }
+        }
+        match count {
+            5 | 8 => self.skipped.note("what follows `v x y z` is neither a weight nor a colour, and not read", number),
+            7 => {
+                let (least, most, line) = self.alphas.unwrap_or((alpha, alpha, number));
+                let line = if alpha < least { number } else { line };
+                self.alphas = Some((least.min(alpha), most.max(alpha), line));
+            }
+            _ => {}
         }
         Ok(())
+    }
+
+    /// Notes what of the colours of positions is not kept.
+    fn check_colors(&mut self) {
+        let white = self.points.white();
+        if white == 1.0
+            && let Some(line) = self.too_bright
+        {
+            self.skipped.note("colours of vertices above 1 are clamped", line);
+        }
+        if let Some((least, most, line)) = self.alphas
+            && least < if most > 1.0 { white } else { 1.0 }
+        {
+            self.skipped.note("alphas of vertices are not read", line);
+        }
     }
 
     fn use_material(&mut self, name: &str) -> Result<(), FileError> {
@@ -185,7 +215,8 @@ impl Reader {
         Ok(())
     }
 
-    fn finish(self, files: Files<'_>, file: &str, memory: &Memory) -> Model {
+    fn finish(mut self, files: Files<'_>, file: &str, memory: &Memory) -> Model {
+        self.check_colors();
         let Self { points, meshes, materials, libraries, skipped, .. } = self;
         let mut model = Model::new();
         model.warnings = skipped.warnings(file);
@@ -193,6 +224,7 @@ impl Reader {
         let mut known = BTreeMap::new();
         read_libraries(files, &libraries, &mut known, &mut model.warnings);
         let mut made = BTreeMap::new();
+        let mut is_covered = false;
         for ((number, _), data) in meshes.finish(&points) {
             let name = (number as usize).checked_sub(1).and_then(|i| materials.get(i));
             let material = name.and_then(|name| {
@@ -206,9 +238,14 @@ impl Reader {
                 });
                 outcome.clone()
             });
+            is_covered |= material.is_some() && data.colors.iter().any(|color| *color != WHITE);
             let material = material.or_else(|| (!data.colors.is_empty()).then(|| model.vertex_color()));
             let data = Some(Arc::new(data));
             model.desc.shape.mesh.push(MeshDesc { file: Some(file.to_owned()), material, data, ..MeshDesc::default() });
+        }
+        if is_covered {
+            let message = "colours of vertices are not used where faces have a material";
+            model.warnings.push(Warning::new(message).hint("leave out `usemtl` to see them"));
         }
         model
     }
@@ -280,7 +317,7 @@ fn read_libraries(files: Files<'_>, lines: &[String], known: &mut BTreeMap<Strin
             hint: e.hint,
             ..Warning::new(format!("the library `{name}` is not read: {}", e.message))
         };
-        match find(name).map(|path| path.components().collect::<PathBuf>()) {
+        match find(name) {
             Ok(path) if !read.insert(path.clone()) => {}
             Ok(path) => match mtl::read(files, &path, name, known) {
                 Ok(found) => warnings.extend(found),

@@ -12,6 +12,7 @@ use eyebeam_core::texture::Channel;
 use super::parse;
 use crate::error::Error;
 use crate::scene::model::files::Files;
+use crate::scene::model::folder;
 use crate::scene::model::lines::Lines;
 use crate::scene::model::skipped::Skipped;
 use crate::warning::Warning;
@@ -26,7 +27,11 @@ pub(super) struct Mtl {
     /// By the keyword, in lower case and without `map_`.
     pub(super) maps: BTreeMap<&'static str, Map>,
     /// `Ka`, and the line it is in.
-    ambient: Option<([f32; 3], usize)>,
+    pub(super) ambient: Option<([f32; 3], usize)>,
+    /// Where each of the others stands.
+    pub(super) lines: BTreeMap<&'static str, usize>,
+    /// That of its `newmtl`.
+    line: usize,
     /// Folder of its file below that of the model.
     pub(super) folder: PathBuf,
 }
@@ -55,11 +60,11 @@ pub(super) enum Part {
 }
 
 const COLORS: [&str; 4] = ["Kd", "Ks", "Ke", "Tf"];
-const NUMBERS: [&str; 11] = ["Ns", "Ni", "d", "illum", "Pr", "Pm", "Ps", "Pc", "Pcr", "aniso", "anisor"];
-/// Of exporters that have nothing to say.
-const USUAL_AMBIENT: [f32; 3] = [0.0, 0.2, 1.0];
+const NUMBERS: [&str; 12] = ["Ns", "Ni", "d", "Tr", "illum", "Pr", "Pm", "Ps", "Pc", "Pcr", "aniso", "anisor"];
 /// What pictures are of that are no amounts.
 const COLORED: [&str; 4] = ["kd", "ks", "ke", "norm"];
+/// What pictures are of that have a strength.
+const RELIEF: [&str; 2] = ["bump", "norm"];
 /// Keywords of pictures, in lower case, and what they are of.
 const MAPS: [(&str, &str); 10] = [
     ("map_kd", "kd"),
@@ -84,12 +89,15 @@ pub(super) fn read(
     let mut skipped = Skipped::default();
     let file = path.display().to_string();
     let mut lines = Lines::new(Box::new(Cursor::new(files.read(path)?)), &file, true)?;
-    let folder = Path::new(&name.replace('\\', "/")).parent().map(Path::to_owned).unwrap_or_default();
+    let folder = folder::plain(Path::new(name)).parent().map(Path::to_owned).unwrap_or_default();
     let mut current: Option<(String, Mtl)> = None;
     let mut keep = |material: Option<(String, Mtl)>, skipped: &mut Skipped| {
-        if let Some((name, mtl)) = material {
-            mtl.check_ambient(skipped);
-            known.entry(name).or_insert(mtl);
+        let Some((name, mut mtl)) = material else { return };
+        mtl.settle(skipped);
+        match known.get(&name) {
+            None => drop(known.insert(name, mtl)),
+            Some(first) if first.says_the_same(&mtl) => {}
+            Some(_) => skipped.note(&format!("a second `newmtl {name}` is not used"), mtl.line),
         }
     };
     while let Some((number, line)) = lines.next()? {
@@ -99,7 +107,7 @@ pub(super) fn read(
             continue;
         }
         if keyword == "newmtl" {
-            let next = (rest.trim().to_owned(), Mtl { folder: folder.clone(), ..Mtl::default() });
+            let next = (rest.trim().to_owned(), Mtl { line: number, folder: folder.clone(), ..Mtl::default() });
             keep(current.replace(next), &mut skipped);
         } else if let Some((_, mtl)) = &mut current {
             mtl.line(keyword, rest.trim(), number, &mut skipped);
@@ -117,17 +125,21 @@ impl Mtl {
         let mut value = || words.next().and_then(parse);
         let map = MAPS.iter().find(|(name, _)| name.eq_ignore_ascii_case(keyword));
         let is_read = if let Some(key) = COLORS.iter().find(|key| **key == keyword) {
-            value().map(|r| self.colors.insert(*key, [r, value().unwrap_or(r), value().unwrap_or(r)])).is_some()
+            value()
+                .map(|r| self.colors.insert(*key, [r, value().unwrap_or(r), value().unwrap_or(r)]))
+                .map(|_| self.lines.insert(*key, number))
+                .is_some()
         } else if let Some(key) = NUMBERS.iter().find(|key| **key == keyword) {
-            value().map(|number| self.numbers.insert(*key, number)).is_some()
-        } else if keyword == "Tr" {
-            value().map(|clear| self.numbers.insert("d", 1.0 - clear)).is_some()
+            value().map(|value| (self.numbers.insert(*key, value), self.lines.insert(*key, number))).is_some()
         } else if let Some((_, key)) = map {
             let map = Map::parse(rest, |option| skipped.note(&format!("the option `{option}` is not read"), number));
             if map.as_ref().is_some_and(|map| map.channel.is_some()) && COLORED.contains(key) {
                 skipped.note("the option `-imfchan` is not read", number);
             }
-            map.map(|map| self.maps.insert(*key, map)).is_some()
+            if map.as_ref().is_some_and(|map| map.bump != 1.0) && !RELIEF.contains(key) {
+                skipped.note("the option `-bm` is not read", number);
+            }
+            map.map(|map| (self.maps.insert(*key, map), self.lines.insert(*key, number))).is_some()
         } else if keyword == "Ka" {
             let ambient = value().map(|r| [r, value().unwrap_or(r), value().unwrap_or(r)]);
             self.ambient = ambient.map(|ambient| (ambient, number));
@@ -140,13 +152,21 @@ impl Mtl {
         }
     }
 
-    /// Nearly all programs write `Ka`, and light that is computed has no use for it: only one that means something is told of.
-    fn check_ambient(&self, skipped: &mut Skipped) {
-        let Some((ambient, line)) = self.ambient else { return };
-        let is_usual = USUAL_AMBIENT.iter().any(|usual| ambient == [*usual; 3]);
-        if !is_usual && self.colors.get("Kd") != Some(&ambient) {
-            skipped.note("`Ka` is not read", line);
-        }
+    /// `illum`, the way in which light is to be computed.
+    pub(super) fn illum(&self) -> Option<i32> {
+        self.numbers.get("illum").map(|illum| *illum as i32)
+    }
+
+    /// Whether there is anything of the extension for PBR.
+    pub(super) fn is_pbr(&self) -> bool {
+        ["Pr", "Pm", "Ps", "Pc"].iter().any(|key| self.numbers.contains_key(key))
+            || ["pr", "pm", "ps"].iter().any(|key| self.maps.contains_key(key))
+    }
+
+    /// Whether another one says the same, wherever it stands.
+    fn says_the_same(&self, other: &Self) -> bool {
+        let of = |mtl: &Self| (mtl.colors.clone(), mtl.numbers.clone(), mtl.maps.clone(), mtl.folder.clone());
+        of(self) == of(other)
     }
 }
 
