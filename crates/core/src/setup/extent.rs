@@ -87,9 +87,14 @@ pub(super) fn points(desc: &SceneDesc) -> Vec<Vec3> {
 /// More points or faces of the copies of a mesh are not looked at one by one.
 const MANY: usize = 1 << 20;
 
+/// Triangles by their corners, as often as one likes: those of a large model are not kept.
+pub(super) trait Faces: Iterator<Item = [Vec3; 3]> + Clone {}
+
+impl<T: Iterator<Item = [Vec3; 3]> + Clone> Faces for T {}
+
 /// The corners of all triangles and of the halves of quads, counter-clockwise seen from where their normals point. What is there in very many
 /// copies is no wall, and left out.
-pub(super) fn faces(desc: &SceneDesc) -> impl Iterator<Item = [Vec3; 3]> {
+pub(super) fn faces(desc: &SceneDesc) -> impl Faces {
     let of_mesh = |mesh: &'_ MeshDesc| -> Vec<Affine3A> {
         match mesh.instances.len() {
             0 => vec![Affine3A::IDENTITY],

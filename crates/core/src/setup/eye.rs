@@ -8,7 +8,7 @@ use glam::Vec3;
 
 use crate::camera::CameraDesc;
 use crate::math::sin_cos_turns;
-use crate::setup::extent::Extent;
+use crate::setup::extent::{Extent, Faces};
 
 /// Vertical angle of view, degrees: that of a portrait lens.
 const VFOV: f32 = 28.0;
@@ -16,7 +16,7 @@ const VFOV: f32 = 28.0;
 pub(super) const FILL: f32 = 0.74;
 
 /// A camera in front of what there is, for pictures so many times as wide as high.
-pub(super) fn in_front(points: &[Vec3], faces: &[[Vec3; 3]], extent: &Extent, aspect: f32) -> CameraDesc {
+pub(super) fn in_front(points: &[Vec3], faces: &impl Faces, extent: &Extent, aspect: f32) -> CameraDesc {
     from_side(points, extent, aspect, direction(faces, extent))
 }
 
@@ -50,7 +50,7 @@ pub(super) fn from_side(points: &[Vec3], extent: &Extent, aspect: f32, back: Vec
 }
 
 /// From what there is to the eye: of flat things more from where they are wide, and from where they face to.
-fn direction(faces: &[[Vec3; 3]], extent: &Extent) -> Vec3 {
+fn direction(faces: &impl Faces, extent: &Extent) -> Vec3 {
     /// Thinner than this part of its width a thing is flat.
     const FLAT: f32 = 0.02;
     let size = extent.max - extent.min;
@@ -61,7 +61,7 @@ fn direction(faces: &[[Vec3; 3]], extent: &Extent) -> Vec3 {
         [false, false, true] => [15.0, 8.0],
         _ => [32.0, 16.0],
     };
-    let facing: Vec3 = faces.iter().map(|[a, b, c]| (b - a).cross(c - a)).sum();
+    let facing: Vec3 = faces.clone().map(|[a, b, c]| (b - a).cross(c - a)).sum();
     let is_behind = is_flat(0) && facing.x < 0.0 || is_flat(2) && facing.z < 0.0;
     // Through the plane of a flat thing, to the other side.
     let azimuth = match (is_behind, is_flat(0)) {
@@ -85,7 +85,7 @@ mod tests {
     /// The box of everything in the picture, from −1 to 1 each way.
     fn framed(desc: &SceneDesc, aspect: f32) -> [Vec2; 2] {
         let points = points(desc);
-        let camera = in_front(&points, &[], &Extent::of(&points).unwrap(), aspect);
+        let camera = in_front(&points, &std::iter::empty(), &Extent::of(&points).unwrap(), aspect);
         let [from, at] = [camera.look_from, camera.look_at].map(|p| Vec3::from(p).as_dvec3());
         let back = (from - at).normalize();
         let right = glam::DVec3::Y.cross(back).normalize();
@@ -135,7 +135,7 @@ mod tests {
         ] {
             let faces = [[Vec3::ZERO, u, v], [u + v, v, u]];
             let points: Vec<_> = faces.iter().flatten().copied().collect();
-            let camera = in_front(&points, &faces, &Extent::of(&points).unwrap(), 1.5);
+            let camera = in_front(&points, &faces.into_iter(), &Extent::of(&points).unwrap(), 1.5);
             let back = Vec3::from(camera.look_from) - Vec3::from(camera.look_at);
             assert!(back.normalize().dot(n) > 0.6, "{n}: {back}");
         }

@@ -13,6 +13,7 @@ mod turntable;
 
 use glam::Vec3;
 
+use crate::camera::CameraDesc;
 use crate::desc::SceneDesc;
 use crate::light::sky::SkyDesc;
 use crate::light::{EnvironmentDesc, ImageEnvironment};
@@ -82,16 +83,9 @@ impl Setup {
         }
         let points = extent::points(desc);
         let Some(extent) = Extent::of(&points) else { return assumed };
-        let faces: Vec<_> = extent::faces(desc).collect();
         let has_lamps = has_lamps(desc);
-        let found = Room::find(&faces, &extent, has_lamps);
-        if self.own_camera || !given.camera {
-            let aspect = desc.render.width as f32 / desc.render.height.max(1) as f32;
-            let (camera, what) = match &found {
-                Some(room) if room.stands() => (room.eye(&points, &faces, &extent, aspect), "a camera in front"),
-                Some(room) => (room.eye(&points, &faces, &extent, aspect), "a camera in the room"),
-                None => (eye::in_front(&points, &faces, &extent, aspect), "a camera in front"),
-            };
+        let (found, camera) = self.look(desc, &points, &extent, given);
+        if let Some((camera, what)) = camera {
             desc.camera = camera;
             assumed.what.push(what);
         }
@@ -126,6 +120,30 @@ impl Setup {
             assumed.what.push("a ground");
         }
         assumed
+    }
+
+    /// The room, if it is one, and where the eye is put, if it is.
+    fn look(
+        &self,
+        desc: &SceneDesc,
+        points: &[Vec3],
+        extent: &Extent,
+        given: Given,
+    ) -> (Option<Room>, Option<(CameraDesc, &'static str)>) {
+        let faces = extent::faces(desc);
+        let room = Room::find(&faces, extent, has_lamps(desc));
+        if given.camera && !self.own_camera {
+            return (room, None);
+        }
+        let aspect = desc.render.width as f32 / desc.render.height.max(1) as f32;
+        let seen = match &room {
+            None => (eye::in_front(points, &faces, extent, aspect), "a camera in front"),
+            Some(room) => {
+                let what = if room.stands() { "a camera in front" } else { "a camera in the room" };
+                (room.eye(points, &faces, extent, aspect), what)
+            }
+        };
+        (room, Some(seen))
     }
 }
 

@@ -13,7 +13,7 @@ use std::f32::consts::FRAC_1_SQRT_2;
 use glam::Vec3;
 
 use crate::camera::CameraDesc;
-use crate::setup::extent::Extent;
+use crate::setup::extent::{Extent, Faces};
 use crate::setup::eye;
 
 /// Outwards through the sides of a box.
@@ -32,7 +32,7 @@ pub(super) struct Room {
 
 impl Room {
     /// None if what there is, is seen from outside; `is_lit` tells of lamps.
-    pub(super) fn find(faces: &[[Vec3; 3]], extent: &Extent, is_lit: bool) -> Option<Self> {
+    pub(super) fn find(faces: &impl Faces, extent: &Extent, is_lit: bool) -> Option<Self> {
         /// So near to a side, in lengths of the box across it, is what belongs to it.
         const NEAR: f32 = 0.08;
         /// The least part of a side that a wall with its doors and windows covers.
@@ -43,7 +43,7 @@ impl Room {
         /// The least of what stands in a room, for each part of its floor.
         const FURNISHED: f32 = 0.02;
         let (mut inwards, mut outwards, mut within) = ([0.0; 6], [0.0; 6], 0.0);
-        for &[a, b, c] in faces {
+        for [a, b, c] in faces.clone() {
             let area = 0.5 * (b - a).cross(c - a);
             let middle = (a + b + c) / 3.0;
             let mut is_within = true;
@@ -88,7 +88,7 @@ impl Room {
     }
 
     /// Where the eye is put, for pictures so many times as wide as high; `points` and `faces` are those of everything.
-    pub(super) fn eye(&self, points: &[Vec3], faces: &[[Vec3; 3]], extent: &Extent, aspect: f32) -> CameraDesc {
+    pub(super) fn eye(&self, points: &[Vec3], faces: &impl Faces, extent: &Extent, aspect: f32) -> CameraDesc {
         let (open, has_ceiling) = (self.open(), self.is_wall[CEILING]);
         if self.stands() {
             let front = eye::in_front(points, faces, extent, aspect);
@@ -114,7 +114,7 @@ impl Room {
 }
 
 /// An eye in the corner from which most is seen.
-fn corner(faces: &[[Vec3; 3]], extent: &Extent) -> CameraDesc {
+fn corner(faces: &impl Faces, extent: &Extent) -> CameraDesc {
     /// Vertical angle of view, degrees: that of a wide lens.
     const VFOV: f32 = 58.0;
     /// From the middle to the walls, of their distance.
@@ -132,7 +132,7 @@ fn corner(faces: &[[Vec3; 3]], extent: &Extent) -> CameraDesc {
 }
 
 /// How far rays from an eye get, in the mean; those that meet the back of something count as none.
-fn seen(faces: &[[Vec3; 3]], from: Vec3, at: Vec3) -> f32 {
+fn seen(faces: &impl Faces, from: Vec3, at: Vec3) -> f32 {
     /// Of the directions beside the middle one.
     const SPREAD: f32 = 0.35;
     let ahead = (at - from).normalize();
@@ -145,9 +145,9 @@ fn seen(faces: &[[Vec3; 3]], from: Vec3, at: Vec3) -> f32 {
 
 /// How far a ray gets, in lengths of its direction; less than nothing if it meets the back of something (Möller & Trumbore 1997,
 /// doi:10.1080/10867651.1997.10487468).
-fn clear(faces: &[[Vec3; 3]], o: Vec3, d: Vec3) -> f32 {
+fn clear(faces: &impl Faces, o: Vec3, d: Vec3) -> f32 {
     let mut nearest = (f32::INFINITY, false);
-    for &[a, b, c] in faces {
+    for [a, b, c] in faces.clone() {
         let [e1, e2] = [b - a, c - a];
         let p = d.cross(e2);
         let det = e1.dot(p);
@@ -186,7 +186,7 @@ mod tests {
     }
 
     fn room(desc: &SceneDesc) -> Option<Room> {
-        Room::find(&faces(desc).collect::<Vec<_>>(), &Extent::of(&points(desc)).unwrap(), false)
+        Room::find(&faces(desc), &Extent::of(&points(desc)).unwrap(), false)
     }
 
     #[test]
@@ -215,7 +215,7 @@ mod tests {
         let size = Vec3::new(5.0, 2.5, 4.0);
         let house = thick(&[0, 1, 2, 3, 4, 5], size);
         assert_eq!(room(&house), None);
-        let (points, faces): (_, Vec<_>) = (points(&house), faces(&house).collect());
+        let (points, faces) = (points(&house), faces(&house));
         let extent = Extent::of(&points).unwrap();
         let lit = Room::find(&faces, &extent, true).unwrap();
         assert!(lit.is_closed() && !lit.stands());
@@ -231,7 +231,7 @@ mod tests {
         for open in WALLS {
             let sides: Vec<_> = (0..6).filter(|&side| side != open).collect();
             let shelf = thick(&sides, size);
-            let (points, faces): (_, Vec<_>) = (points(&shelf), faces(&shelf).collect());
+            let (points, faces) = (points(&shelf), faces(&shelf));
             let extent = Extent::of(&points).unwrap();
             let room = Room::find(&faces, &extent, false).unwrap();
             let camera = room.eye(&points, &faces, &extent, 1.5);
@@ -244,7 +244,7 @@ mod tests {
     fn the_eye_looks_through_the_open_side_or_stands_inside() {
         let size = Vec3::new(5.0, 2.5, 4.0);
         let eye = |desc: &SceneDesc| {
-            let (points, faces): (_, Vec<_>) = (points(desc), faces(desc).collect());
+            let (points, faces) = (points(desc), faces(desc));
             let extent = Extent::of(&points).unwrap();
             let room = Room::find(&faces, &extent, false).unwrap();
             let camera = room.eye(&points, &faces, &extent, 1.5);

@@ -43,8 +43,7 @@ impl Turntable {
         let center = extent.center();
         let seen = points.iter().filter(|&&p| extent.holds(p)).map(|&p| p - center);
         let points = seen.map(|p| [(p.x * p.x + p.z * p.z).sqrt(), p.y]).collect();
-        let faces: Vec<_> = extent::faces(desc).collect();
-        let is_inside = Room::find(&faces, &extent, has_lamps(desc)).is_some_and(|room| room.is_closed());
+        let is_inside = Room::find(&extent::faces(desc), &extent, has_lamps(desc)).is_some_and(|room| room.is_closed());
         Some(Self { center, points, is_inside })
     }
 

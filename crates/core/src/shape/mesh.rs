@@ -247,7 +247,7 @@ impl MeshDesc {
     }
 
     /// The corners of its triangles, once the file is loaded.
-    pub(crate) fn faces(&self) -> impl Iterator<Item = [Vec3; 3]> {
+    pub(crate) fn faces(&self) -> impl Iterator<Item = [Vec3; 3]> + Clone {
         self.mesh().corners()
     }
 
@@ -281,7 +281,7 @@ impl MeshDesc {
 
 impl<'a> Mesh<'a> {
     /// The corners of each triangle. The check has found that every vertex exists.
-    fn corners(&self) -> impl Iterator<Item = [Vec3; 3]> + use<'a> {
+    fn corners(&self) -> impl Iterator<Item = [Vec3; 3]> + Clone + use<'a> {
         let vertices = self.vertices;
         let vertex = |i: u32| vertices.get(i as usize).map(|&v| Vec3::from(v));
         self.triangles.iter().filter_map(move |&[a, b, c]| Some([vertex(a)?, vertex(b)?, vertex(c)?]))
