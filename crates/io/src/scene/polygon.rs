@@ -14,6 +14,11 @@ pub(super) fn triangulate(corners: &[DVec3], triangles: &mut Vec<[usize; 3]>) {
     if n == 3 {
         return triangles.push([0, 1, 2]);
     }
+    if let &[a, b, c, d] = corners
+        && is_convex([a, b, c, d])
+    {
+        return triangles.extend([[0, 1, 2], [0, 2, 3]]);
+    }
     let flat = flatten(corners);
     let turn = |[a, b, c]: [usize; 3]| match (flat.get(a), flat.get(b), flat.get(c)) {
         (Some(&a), Some(&b), Some(&c)) => (b - a).perp_dot(c - b),
@@ -47,6 +52,12 @@ pub(super) fn triangulate(corners: &[DVec3], triangles: &mut Vec<[usize; 3]>) {
     if let Some((&first, rest)) = ring.split_first() {
         triangles.extend(rest.iter().zip(rest.iter().skip(1)).map(|(&a, &b)| [first, a, b]));
     }
+}
+
+/// Whether all corners turn the same way. Most polygons are such quads.
+fn is_convex(quad: [DVec3; 4]) -> bool {
+    let normal = (quad[2] - quad[0]).cross(quad[3] - quad[1]);
+    (0..4).all(|i| (quad[(i + 1) % 4] - quad[i]).cross(quad[(i + 2) % 4] - quad[(i + 1) % 4]).dot(normal) > 0.0)
 }
 
 /// Seen so that they turn counter-clockwise.
