@@ -120,7 +120,8 @@ fn pose(
         if let [first, ..] = &document.animations[..] {
             let count = document.animations.len();
             let message = format!("of {count} animations none is chosen: all is as it rests");
-            warnings.push(Warning::new(message).hint(format!("`--animation \"{}\" --at 0.5` poses it", first.name)));
+            let name = if first.name.is_empty() { "0" } else { &first.name };
+            warnings.push(Warning::new(message).hint(format!("`--animation \"{name}\" --at 0.5` poses it")));
         }
         return Ok(());
     };
