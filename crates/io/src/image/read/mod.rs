@@ -125,14 +125,14 @@ impl Format {
 }
 
 fn decode(bytes: &[u8]) -> Decoded {
-    let signals = |pixels: Pixels| (pixels.to_image(), Vec::new());
+    let signals = |(pixels, warnings): (Pixels, _)| (pixels.to_image(), warnings);
     match Format::of(bytes)? {
         Format::Exr => exr::decode(bytes),
         Format::Hdr => hdr::decode(bytes),
         Format::Png => signals::decode_png(bytes, LINEAR).map(signals),
         Format::Jpeg => signals::decode_jpeg(bytes, LINEAR).map(signals),
         Format::WebP => signals::decode_webp(bytes, LINEAR).map(signals),
-        Format::Ktx2 => ktx2::decode(bytes, LINEAR).map(signals),
+        Format::Ktx2 => ktx2::decode(bytes, LINEAR).map(|pixels| signals((pixels, Vec::new()))),
     }
 }
 

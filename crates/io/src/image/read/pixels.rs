@@ -64,9 +64,9 @@ fn decode(bytes: &[u8]) -> Result<(Pixels, Vec<Warning>), FileError> {
             let size = [image.width(), image.height()];
             Ok((pixels(size, 3, Samples::Float(image.into_pixels().into_flattened()))?, warnings))
         }
-        Format::Png => Ok((signals::decode_png(bytes, 0)?, Vec::new())),
-        Format::Jpeg => Ok((signals::decode_jpeg(bytes, 0)?, Vec::new())),
-        Format::WebP => Ok((signals::decode_webp(bytes, 0)?, Vec::new())),
+        Format::Png => signals::decode_png(bytes, 0),
+        Format::Jpeg => signals::decode_jpeg(bytes, 0),
+        Format::WebP => signals::decode_webp(bytes, 0),
         Format::Ktx2 => Ok((ktx2::decode(bytes, 0)?, Vec::new())),
     }
 }

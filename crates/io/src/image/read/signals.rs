@@ -1,16 +1,21 @@
-//! PNG, JPEG and WebP: signals of 8 or 16 bits. Of an animation comes the first frame.
+//! PNG, JPEG and WebP: signals of 8 or 16 bits, taken as sRGB. Of an animation comes the first frame.
 
 use std::io::Cursor;
 
 use eyebeam_core::texture::{Pixels, Samples};
 use image::codecs::jpeg::JpegDecoder;
 use image::codecs::webp::WebPDecoder;
+use image::metadata::Orientation;
 use image::{DynamicImage, ImageDecoder, ImageError, ImageResult};
 use png::{BitDepth, Decoder, DecodingError, Limits, Reader, Transformations};
 
 use crate::error::FileError;
 use crate::image::read::pixels::{compact, pixels};
 use crate::image::read::{DEFLATE, check_length, check_size};
+use crate::warning::Warning;
+
+/// A picture, and what could not be kept of it.
+type Decoded = Result<(Pixels, Vec<Warning>), FileError>;
 
 type Png<'b> = Reader<Cursor<&'b [u8]>>;
 
@@ -18,8 +23,9 @@ type Png<'b> = Reader<Cursor<&'b [u8]>>;
 const PNG_MEMORY: usize = 256 << 20;
 
 /// Refused if the picture, and so many bytes more for each pixel, are more than is allowed.
-pub(super) fn decode_png(bytes: &[u8], more: u64) -> Result<Pixels, FileError> {
+pub(super) fn decode_png(bytes: &[u8], more: u64) -> Decoded {
     let (mut reader, _) = open_png(bytes, more)?;
+    let warnings = unkept_of_png(&reader);
     let (width, height) = reader.info().size();
     let (color, depth) = reader.output_color_type();
     let channels = color.samples();
@@ -33,7 +39,22 @@ pub(super) fn decode_png(bytes: &[u8], more: u64) -> Result<Pixels, FileError> {
         let (channels, signals) = compact(channels, signals, u8::MAX);
         (channels, Samples::Byte(signals))
     };
-    pixels([width, height], channels, samples)
+    Ok((pixels([width, height], channels, samples)?, warnings))
+}
+
+/// What says how it is to be shown.
+fn unkept_of_png(reader: &Png<'_>) -> Vec<Warning> {
+    let info = reader.info();
+    let gamma = info.gama_chunk.filter(|_| info.srgb.is_none()).map(|gamma| gamma.into_value());
+    let is_other = |gamma: &f32| (gamma - 1.0 / 2.2).abs() > 0.01;
+    let gamma = gamma.filter(is_other).map(|gamma| Warning::new(format!("the picture's gamma {gamma} is ignored")));
+    let frames = info.animation_control.map_or(1, |animation| animation.num_frames);
+    gamma.into_iter().chain(frames_left_out(frames)).collect()
+}
+
+/// Of an animation.
+fn frames_left_out(frames: u32) -> Option<Warning> {
+    (frames > 1).then(|| Warning::new(format!("of {frames} frames the first is read")))
 }
 
 /// The memory that pixels take, by the header alone, and so many bytes more for each.
@@ -98,8 +119,9 @@ impl Coded {
         Ok((decoder, memory))
     }
 
-    fn decode<D: ImageDecoder>(&self, decoder: ImageResult<D>, bytes: &[u8], more: u64) -> Result<Pixels, FileError> {
-        let (decoder, _) = self.open(decoder, bytes, more)?;
+    fn decode<D: ImageDecoder>(&self, decoder: ImageResult<D>, bytes: &[u8], more: u64) -> Decoded {
+        let (mut decoder, _) = self.open(decoder, bytes, more)?;
+        let warnings = unkept(&mut decoder);
         let (width, height) = decoder.dimensions();
         let (channels, signals) = match DynamicImage::from_decoder(decoder).map_err(|e| self.wrong(&e))? {
             DynamicImage::ImageLuma8(grey) => (1, grey.into_raw()),
@@ -107,12 +129,27 @@ impl Coded {
             color => (3, color.into_rgb8().into_raw()),
         };
         let (channels, signals) = compact(channels, signals, u8::MAX);
-        pixels([width, height], channels, Samples::Byte(signals))
+        Ok((pixels([width, height], channels, Samples::Byte(signals))?, warnings))
     }
 }
 
+/// What says how it is to be shown.
+fn unkept(decoder: &mut impl ImageDecoder) -> Vec<Warning> {
+    let is_turned = decoder.orientation().is_ok_and(|orientation| orientation != Orientation::NoTransforms);
+    let profile = decoder.icc_profile().ok().flatten().filter(|profile| !is_srgb(profile));
+    let turned = is_turned.then(|| Warning::new("the picture says that it is to be turned: it is read as it lies"));
+    let colors = profile.map(|_| Warning::new("the picture's colour profile is ignored: it is taken as sRGB"));
+    turned.into_iter().chain(colors).collect()
+}
+
+/// Whether a colour profile has the name of sRGB, in one of the ways to write it.
+fn is_srgb(profile: &[u8]) -> bool {
+    let has = |name: &[u8]| profile.windows(name.len()).any(|part| part == name);
+    has(b"sRGB") || has(b"s\0R\0G\0B")
+}
+
 /// Refused if the picture, and so many bytes more for each pixel, are more than is allowed.
-pub(super) fn decode_jpeg(bytes: &[u8], more: u64) -> Result<Pixels, FileError> {
+pub(super) fn decode_jpeg(bytes: &[u8], more: u64) -> Decoded {
     JPEG.decode(JpegDecoder::new(Cursor::new(bytes)), bytes, more)
 }
 
@@ -122,8 +159,14 @@ pub(super) fn jpeg_size(bytes: &[u8], more: u64) -> Result<u64, FileError> {
 }
 
 /// Refused if the picture, and so many bytes more for each pixel, are more than is allowed.
-pub(super) fn decode_webp(bytes: &[u8], more: u64) -> Result<Pixels, FileError> {
-    WEBP.decode(WebPDecoder::new(Cursor::new(bytes)), bytes, more)
+pub(super) fn decode_webp(bytes: &[u8], more: u64) -> Decoded {
+    let decoder = WebPDecoder::new(Cursor::new(bytes));
+    let is_animated = decoder.as_ref().is_ok_and(WebPDecoder::has_animation);
+    let (pixels, mut warnings) = WEBP.decode(decoder, bytes, more)?;
+    if is_animated {
+        warnings.push(Warning::new("of an animation the first frame is read"));
+    }
+    Ok((pixels, warnings))
 }
 
 /// The memory that pixels take, by the header alone, and so many bytes more for each.
@@ -166,14 +209,14 @@ mod tests {
             (png(GrayscaleAlpha, Eight, 1, &[], &[188, 9]), [byte(188); 3]),
             (png(Grayscale, One, 1, &[], &[0x80]), [1.0; 3]),
         ] {
-            assert_eq!(decode_png(&bytes, 0).unwrap().to_image().pixels(), [expected]);
+            assert_eq!(decode_png(&bytes, 0).unwrap().0.to_image().pixels(), [expected]);
         }
     }
 
     #[test]
     fn sixteen_bits_are_finer_than_eight() {
         let bytes = png(ColorType::Grayscale, BitDepth::Sixteen, 2, &[], &[128, 0, 128, 1]);
-        let image = decode_png(&bytes, 0).unwrap().to_image();
+        let image = decode_png(&bytes, 0).unwrap().0.to_image();
         assert!(image.pixel(0, 0)[0] < image.pixel(1, 0)[0]);
     }
 
@@ -189,10 +232,51 @@ mod tests {
             (GrayscaleAlpha, &[9, 255, 6, 255], &[9, 6]),
             (Grayscale, &[9, 6], &[9, 6]),
         ] {
-            let pixels = decode_png(&png(color, BitDepth::Eight, 2, &[], signals), 0).unwrap();
+            let pixels = decode_png(&png(color, BitDepth::Eight, 2, &[], signals), 0).unwrap().0;
             assert!(*pixels.samples() == Samples::Byte(expected.to_vec()), "{signals:?}");
             assert_eq!(pixels.channels(), expected.len() / 2);
         }
+    }
+
+    #[test]
+    fn what_says_how_it_is_to_be_shown_is_told_of() {
+        use image::codecs::jpeg::JpegEncoder;
+        use image::{ExtendedColorType, ImageEncoder};
+        let said = |decoded: Decoded| decoded.unwrap().1.into_iter().map(|w| w.message).collect::<Vec<_>>().join("; ");
+        let jpeg = |profile: &[u8], orientation: u8| {
+            let mut bytes = Vec::new();
+            let mut encoder = JpegEncoder::new(&mut bytes);
+            encoder.set_icc_profile(profile.to_vec()).unwrap();
+            // A TIFF of one number.
+            let number = [0x12, 0x01, 3, 0, 1, 0, 0, 0, orientation, 0, 0, 0, 0, 0, 0, 0];
+            encoder.set_exif_metadata([b"II*\0\x08\0\0\0\x01\0", &number[..]].concat()).unwrap();
+            encoder.write_image(&[9; 3], 1, 1, ExtendedColorType::Rgb8).unwrap();
+            bytes
+        };
+        assert_eq!(said(decode_jpeg(&jpeg(b"the sRGB profile", 1), 0)), "");
+        assert_eq!(said(decode_jpeg(&jpeg(b"\0s\0R\0G\0B\0", 1), 0)), "");
+        assert_eq!(
+            said(decode_jpeg(&jpeg(b"Display P3", 6), 0)),
+            "the picture says that it is to be turned: it is read as it lies; \
+             the picture's colour profile is ignored: it is taken as sRGB"
+        );
+        let png = |gamma: f32, frames: u32| {
+            let mut bytes = Vec::new();
+            let mut encoder = Encoder::new(&mut bytes, 1, 1);
+            encoder.set_source_gamma(png::ScaledFloat::new(gamma));
+            if frames > 1 {
+                encoder.set_animated(frames, 0).unwrap();
+            }
+            let mut writer = encoder.write_header().unwrap();
+            (0..frames).for_each(|_| writer.write_image_data(&[7]).unwrap());
+            drop(writer);
+            bytes
+        };
+        assert_eq!(said(decode_png(&png(0.45455, 1), 0)), "");
+        assert_eq!(
+            said(decode_png(&png(1.0, 2), 0)),
+            "the picture's gamma 1 is ignored; of 2 frames the first is read"
+        );
     }
 
     /// Without losses, as the encoder writes it.
@@ -207,7 +291,7 @@ mod tests {
             WebPEncoder::new_lossless(&mut webp).encode(signals, 2, 1, kind).unwrap();
             let expected = decode_png(&png(color, BitDepth::Eight, 2, &[], signals), 0).unwrap();
             assert!(decode_webp(&webp, 0).unwrap() == expected);
-            assert!(webp_size(&webp, 0).unwrap() >= expected.bytes() as u64);
+            assert!(webp_size(&webp, 0).unwrap() >= expected.0.bytes() as u64);
             for end in 0..webp.len() {
                 let _ = decode_webp(&webp[..end], 0).is_ok();
             }
