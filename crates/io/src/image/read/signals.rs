@@ -25,7 +25,7 @@ const PNG_MEMORY: usize = 256 << 20;
 /// Refused if the picture, and so many bytes more for each pixel, are more than is allowed.
 pub(super) fn decode_png(bytes: &[u8], more: u64) -> Decoded {
     let (mut reader, _) = open_png(bytes, more)?;
-    let warnings = unkept_of_png(&reader);
+    let warnings = unkept_of_png(&reader, bytes);
     let (width, height) = reader.info().size();
     let (color, depth) = reader.output_color_type();
     let channels = color.samples();
@@ -43,18 +43,35 @@ pub(super) fn decode_png(bytes: &[u8], more: u64) -> Decoded {
 }
 
 /// What says how it is to be shown.
-fn unkept_of_png(reader: &Png<'_>) -> Vec<Warning> {
+fn unkept_of_png(reader: &Png<'_>, bytes: &[u8]) -> Vec<Warning> {
     let info = reader.info();
     let gamma = info.gama_chunk.filter(|_| info.srgb.is_none()).map(|gamma| gamma.into_value());
     let is_other = |gamma: &f32| (gamma - 1.0 / 2.2).abs() > 0.01;
     let gamma = gamma.filter(is_other).map(|gamma| Warning::new(format!("the picture's gamma {gamma} is ignored")));
     let frames = info.animation_control.map_or(1, |animation| animation.num_frames);
-    gamma.into_iter().chain(frames_left_out(frames)).collect()
+    let frames = (frames > 1).then(|| Warning::new(format!("of {frames} frames the first is read")));
+    let colors = profile_of_png(bytes).filter(|name| !is_srgb(name)).map(|_| other_colors());
+    gamma.into_iter().chain(colors).chain(frames).collect()
 }
 
-/// Of an animation.
-fn frames_left_out(frames: u32) -> Option<Warning> {
-    (frames > 1).then(|| Warning::new(format!("of {frames} frames the first is read")))
+/// The name of the colour profile, which stands before the pixels and is not compressed.
+fn profile_of_png(bytes: &[u8]) -> Option<&[u8]> {
+    let mut rest = bytes.get(8..)?;
+    loop {
+        let (length, chunk) = rest.split_first_chunk()?;
+        let (kind, chunk) = chunk.split_first_chunk()?;
+        let data = chunk.get(..u32::from_be_bytes(*length) as usize)?;
+        match kind {
+            b"iCCP" => return data.split(|byte| *byte == 0).next(),
+            b"IDAT" => return None,
+            // Four bytes of a checksum.
+            _ => rest = chunk.get(data.len() + 4..)?,
+        }
+    }
+}
+
+fn other_colors() -> Warning {
+    Warning::new("the picture's colour profile is ignored: it is taken as sRGB")
 }
 
 /// The memory that pixels take, by the header alone, and so many bytes more for each.
@@ -138,7 +155,7 @@ fn unkept(decoder: &mut impl ImageDecoder) -> Vec<Warning> {
     let is_turned = decoder.orientation().is_ok_and(|orientation| orientation != Orientation::NoTransforms);
     let profile = decoder.icc_profile().ok().flatten().filter(|profile| !is_srgb(profile));
     let turned = is_turned.then(|| Warning::new("the picture says that it is to be turned: it is read as it lies"));
-    let colors = profile.map(|_| Warning::new("the picture's colour profile is ignored: it is taken as sRGB"));
+    let colors = profile.map(|_| other_colors());
     turned.into_iter().chain(colors).collect()
 }
 
@@ -260,9 +277,11 @@ mod tests {
             "the picture says that it is to be turned: it is read as it lies; \
              the picture's colour profile is ignored: it is taken as sRGB"
         );
-        let png = |gamma: f32, frames: u32| {
+        let png = |gamma: f32, frames: u32, profile: &[u8]| {
             let mut bytes = Vec::new();
-            let mut encoder = Encoder::new(&mut bytes, 1, 1);
+            let mut info = png::Info::with_size(1, 1);
+            info.icc_profile = (!profile.is_empty()).then(|| profile.to_vec().into());
+            let mut encoder = Encoder::with_info(&mut bytes, info).unwrap();
             encoder.set_source_gamma(png::ScaledFloat::new(gamma));
             if frames > 1 {
                 encoder.set_animated(frames, 0).unwrap();
@@ -272,9 +291,12 @@ mod tests {
             drop(writer);
             bytes
         };
-        assert_eq!(said(decode_png(&png(0.45455, 1), 0)), "");
+        assert_eq!(said(decode_png(&png(0.45455, 1, b""), 0)), "");
+        let profiled = png(0.45455, 1, b"anything");
+        assert_eq!(profile_of_png(&profiled), Some(&b"_"[..]));
+        assert!(said(decode_png(&profiled, 0)).starts_with("the picture's colour profile is ignored"));
         assert_eq!(
-            said(decode_png(&png(1.0, 2), 0)),
+            said(decode_png(&png(1.0, 2, b""), 0)),
             "the picture's gamma 1 is ignored; of 2 frames the first is read"
         );
     }

@@ -75,6 +75,19 @@ fn skins_can_be_mirrored() {
     assert_eq!(mesh(&skinned([-1.0, -1.0, 1.0])).triangles, [[0, 1, 2]]);
 }
 
+/// A joint moves the skin from outside of the scene, too.
+#[test]
+fn joints_may_be_elsewhere() {
+    let attributes = json!({ "POSITION": 1, "JOINTS_0": 3, "WEIGHTS_0": 4 });
+    let file = model(&with(&[
+        ("/meshes/0/primitives/0/attributes", attributes),
+        ("/nodes", json!([{ "mesh": 0, "skin": 0 }, { "translation": [0, 0, 5] }])),
+        ("/scenes/0/nodes", json!([0])),
+        ("/skins", json!([{ "joints": [1, 1, 1, 1] }])),
+    ]));
+    assert_eq!(mesh(&file).vertices, [[0.0, 0.0, 5.0], [1.0, 0.0, 5.0], [0.0, 2.0, 5.0]]);
+}
+
 /// `specular` is for what is not metal.
 #[test]
 fn metal_does_not_heed_specular() {

@@ -12,6 +12,9 @@ use crate::scene::model::gltf::extensions::{Instancing, get};
 /// Nodes within each other.
 const MAX_DEPTH: usize = 1000;
 
+/// Stands for all scenes, and what is in none.
+pub(super) const EVERYWHERE: usize = usize::MAX;
+
 /// The nodes of a scene with their transforms, parents before children.
 ///
 /// # Errors
@@ -19,7 +22,7 @@ const MAX_DEPTH: usize = 1000;
 pub(super) fn in_world(document: &Document, scene: usize) -> Result<Vec<(usize, DAffine3)>, FileError> {
     let roots = match document.scenes.get(scene) {
         Some(scene) => scene.nodes.clone(),
-        // A file without scenes: all nodes without parents.
+        // As in a file without scenes: all nodes without parents.
         None => {
             let children: BTreeSet<_> = document.nodes.iter().flat_map(|node| &node.children).collect();
             (0..document.nodes.len()).filter(|i| !children.contains(i)).collect()

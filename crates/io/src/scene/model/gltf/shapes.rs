@@ -154,8 +154,13 @@ fn joints(
 ) -> Result<Vec<DAffine3>, FileError> {
     let skin = buffers.document.skins.get(index).ok_or_else(|| missing("skin", index))?;
     let bound = skin.inverse_bind_matrices.map(|i| buffers.floats::<16>(i, 0.0)).transpose()?;
+    // Joints need not be in the scene that is shown.
+    let is_elsewhere = skin.joints.iter().any(|joint| !in_world.contains_key(joint));
+    let elsewhere = if is_elsewhere { node::in_world(buffers.document, node::EVERYWHERE)? } else { Vec::new() };
+    let elsewhere: BTreeMap<_, _> = elsewhere.into_iter().collect();
     let joint = |(i, joint): (usize, &usize)| {
-        let to_world = *in_world.get(joint).ok_or_else(|| missing("joint", *joint))?;
+        let to_world = in_world.get(joint).or_else(|| elsewhere.get(joint));
+        let to_world = *to_world.ok_or_else(|| missing("joint", *joint))?;
         let bound = match &bound {
             Some(matrices) => matrices.get(i).ok_or_else(|| missing("inverse bind matrix", i))?.map(f64::from),
             None => return Ok(to_world),
