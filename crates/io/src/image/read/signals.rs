@@ -50,7 +50,7 @@ fn unkept_of_png(reader: &Png<'_>, bytes: &[u8]) -> Vec<Warning> {
     let gamma = gamma.filter(is_other).map(|gamma| Warning::new(format!("the picture's gamma {gamma} is ignored")));
     let frames = info.animation_control.map_or(1, |animation| animation.num_frames);
     let frames = (frames > 1).then(|| Warning::new(format!("of {frames} frames the first is read")));
-    let colors = profile_of_png(bytes).filter(|name| !is_srgb(name)).map(|_| other_colors());
+    let colors = profile_of_png(bytes).filter(|name| names_other_colors(name)).map(|_| other_colors());
     gamma.into_iter().chain(colors).chain(frames).collect()
 }
 
@@ -68,6 +68,12 @@ fn profile_of_png(bytes: &[u8]) -> Option<&[u8]> {
             _ => rest = chunk.get(data.len() + 4..)?,
         }
     }
+}
+
+/// Whether the name of a profile is one of those that are not sRGB; most names say nothing.
+fn names_other_colors(name: &[u8]) -> bool {
+    let others: [&[u8]; 5] = [b"P3", b"Adobe RGB", b"ProPhoto", b"2020", b"Wide Gamut"];
+    others.iter().any(|other| name.windows(other.len()).any(|part| part == *other))
 }
 
 fn other_colors() -> Warning {
@@ -294,7 +300,8 @@ mod tests {
         assert_eq!(said(decode_png(&png(0.45455, 1, b""), 0)), "");
         let profiled = png(0.45455, 1, b"anything");
         assert_eq!(profile_of_png(&profiled), Some(&b"_"[..]));
-        assert!(said(decode_png(&profiled, 0)).starts_with("the picture's colour profile is ignored"));
+        assert_eq!(said(decode_png(&profiled, 0)), "");
+        assert!(names_other_colors(b"Display P3") && !names_other_colors(b"sRGB IEC61966-2.1"));
         assert_eq!(
             said(decode_png(&png(1.0, 2, b""), 0)),
             "the picture's gamma 1 is ignored; of 2 frames the first is read"
