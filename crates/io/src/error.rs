@@ -106,18 +106,14 @@ pub struct Place {
 
 impl fmt::Display for Place {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        fmt_place(f, &self.file, &self.at)
-    }
-}
-
-fn fmt_place(f: &mut fmt::Formatter<'_>, file: &str, at: &At) -> fmt::Result {
-    write!(f, "{}", visible(file))?;
-    match at {
-        At::File => Ok(()),
-        At::Line(line) => write!(f, ":{line}"),
-        At::Character { line, column } => write!(f, ":{line}:{column}"),
-        At::Byte(byte) => write!(f, ", byte {byte}"),
-        At::Part(part) => write!(f, ", {}", visible(part)),
+        write!(f, "{}", visible(&self.file))?;
+        match &self.at {
+            At::File => Ok(()),
+            At::Line(line) => write!(f, ":{line}"),
+            At::Character { line, column } => write!(f, ":{line}:{column}"),
+            At::Byte(byte) => write!(f, ", byte {byte}"),
+            At::Part(part) => write!(f, ", {}", visible(part)),
+        }
     }
 }
 
@@ -172,12 +168,8 @@ impl From<Error> for FileError {
 
 impl fmt::Display for FileError {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        write!(f, "error: {}\n  --> ", visible(&self.message))?;
-        fmt_place(f, &self.file, &self.at)?;
-        if let Some(hint) = &self.hint {
-            write!(f, "\nhint: {}", visible(hint))?;
-        }
-        Ok(())
+        let place = Place { file: self.file.clone(), at: self.at.clone() };
+        f.write_str(&report("error", &self.message, [&place], self.hint.as_deref()))
     }
 }
 
@@ -196,25 +188,28 @@ pub struct Diagnostic {
 
 impl fmt::Display for Diagnostic {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        fmt_report(f, "error", &self.message, self.place.as_slice(), self.hint.as_deref())
+        f.write_str(&report("error", &self.message, &self.place, self.hint.as_deref()))
     }
 }
 
-pub(crate) fn fmt_report<'p>(
-    f: &mut fmt::Formatter<'_>,
+/// What is said of something, with its places and what to do about it.
+pub fn report<'p>(
     kind: &str,
     message: &str,
     places: impl IntoIterator<Item = &'p Place>,
     hint: Option<&str>,
-) -> fmt::Result {
-    write!(f, "{kind}: {}", visible(message))?;
-    for place in places {
-        write!(f, "\n  --> {place}")?;
+) -> String {
+    /// The most places that are shown.
+    const PLACES: usize = 10;
+    let mut lines = vec![format!("{kind}: {}", visible(message))];
+    let mut places = places.into_iter();
+    lines.extend(places.by_ref().take(PLACES).map(|place| format!("  --> {place}")));
+    let rest = places.count();
+    if rest > 0 {
+        lines.push(format!("  --> and {rest} more places"));
     }
-    if let Some(hint) = hint {
-        write!(f, "\nhint: {}", visible(hint))?;
-    }
-    Ok(())
+    lines.extend(hint.map(|hint| format!("hint: {}", visible(hint))));
+    lines.join("\n")
 }
 
 /// Names come from files: a line stays a line, no longer than one can read, and a terminal is told nothing.

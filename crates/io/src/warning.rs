@@ -4,7 +4,7 @@ use std::fmt;
 
 use serde::Serialize;
 
-use crate::error::{At, Diagnostic, Fault, Place, fmt_report};
+use crate::error::{At, Diagnostic, Fault, Place, report};
 
 /// Something that was not kept as it is in a file, or that has no effect in a scene; the rest is fine.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize)]
@@ -20,6 +20,11 @@ pub struct Warning {
 impl Warning {
     pub(crate) fn new(message: impl Into<String>) -> Self {
         Self { message: message.into(), place: None, hint: None }
+    }
+
+    /// Something that was met so often.
+    pub(crate) fn counted(message: &str, count: usize) -> Self {
+        if count == 1 { Self::new(message) } else { Self::new(format!("{message} ({count} times)")) }
     }
 
     /// In a file that has no name yet: [`Self::of`] gives it.
@@ -49,7 +54,7 @@ impl Warning {
 
 impl fmt::Display for Warning {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        fmt_report(f, "warning", &self.message, self.place.as_slice(), self.hint.as_deref())
+        f.write_str(&report("warning", &self.message, &self.place, self.hint.as_deref()))
     }
 }
 

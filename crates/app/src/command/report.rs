@@ -2,7 +2,7 @@
 
 use std::collections::{BTreeMap, BTreeSet};
 
-use eyebeam_io::error::visible;
+use eyebeam_io::error::{report, visible};
 use eyebeam_io::scene::SceneFile;
 use eyebeam_io::{Place, Warning};
 use serde::Serialize;
@@ -64,23 +64,10 @@ pub(super) fn told(warnings: &[Warning]) -> Vec<Told<'_>> {
 }
 
 impl Told<'_> {
-    /// The most places that are shown of one.
-    const PLACES: usize = 10;
-
     /// With its places and its hint.
     pub(super) fn whole(&self) -> String {
-        let mut text = format!("warning: {}{}", visible(self.message), self.times());
-        let mut add = |line: String| {
-            text.push('\n');
-            text += &line;
-        };
-        self.places.iter().take(Self::PLACES).for_each(|place| add(format!("  --> {place}")));
-        let rest = self.places.len().saturating_sub(Self::PLACES);
-        if rest > 0 {
-            add(format!("  --> and {rest} more places"));
-        }
-        self.hint.iter().for_each(|hint| add(format!("hint: {}", visible(hint))));
-        text
+        let message = format!("{}{}", self.message, self.times());
+        report("warning", &message, self.places.iter().copied(), self.hint)
     }
 
     /// In one line, with the first place, without the hint.

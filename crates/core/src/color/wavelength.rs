@@ -15,9 +15,6 @@ pub struct Wavelength {
 }
 
 impl Wavelength {
-    /// What is in the middle, about: that of Fraunhofer's line d, at which indices of refraction are stated.
-    pub(crate) const MIDDLE: f32 = 587.56;
-
     /// Draws one in proportion to what is seen of it, red, green and blue being worth the same.
     pub fn sample(u: f32) -> Self {
         let Bands { ends, colors } = &*BANDS;

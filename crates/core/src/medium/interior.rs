@@ -63,7 +63,7 @@ impl Filling {
     /// The index at a wavelength, nanometres, over `eta`.
     fn bend(&self, nm: f32) -> f32 {
         let inverse_square = |nm: f32| 1.0 / (nm * nm);
-        let middle = inverse_square(Wavelength::MIDDLE);
+        let middle = inverse_square(Self::LINE_D);
         let change = (inverse_square(nm) - middle) / (inverse_square(Self::LINE_F) - inverse_square(Self::LINE_C));
         let n = self.eta.max(1.0 / self.eta);
         let bend = 1.0 + (n - 1.0) * self.dispersion * change / n;
@@ -71,7 +71,8 @@ impl Filling {
         if self.eta < 1.0 { 1.0 / bend } else { bend }
     }
 
-    /// Fraunhofer's lines, nanometres.
+    /// Fraunhofer's lines, nanometres; indices are stated at the first.
+    const LINE_D: f32 = 587.56;
     const LINE_F: f32 = 486.13;
     const LINE_C: f32 = 656.27;
 

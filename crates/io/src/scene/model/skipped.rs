@@ -34,10 +34,7 @@ impl Skipped {
 
     /// What there is to say, each of the line where it was first met.
     pub(super) fn warnings(self, file: &str) -> Vec<Warning> {
-        let told = |Kind { what, count, first }: Kind| {
-            let what = if count == 1 { what } else { format!("{what} ({count} times)") };
-            Warning::new(what).at(At::Line(first)).of(file)
-        };
+        let told = |Kind { what, count, first }: Kind| Warning::counted(&what, count).at(At::Line(first)).of(file);
         let mut warnings: Vec<_> = self.kinds.into_iter().map(told).collect();
         if self.others > 0 {
             warnings.push(Warning::new(format!("{} more lines of other kinds are not read", self.others)).of(file));

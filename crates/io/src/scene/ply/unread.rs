@@ -37,8 +37,7 @@ pub(super) fn warnings(header: &Header, faces: &Faces, values: &impl Values, oth
         ("a face of too many corners is taken as convex", faces.fans),
     ];
     for (what, count) in counted.into_iter().filter(|(_, count)| *count > 0) {
-        let what = if count == 1 { what.to_owned() } else { format!("{what} ({count} times)") };
-        warnings.push(Warning::new(what).at(of_faces.clone()));
+        warnings.push(Warning::counted(what, count).at(of_faces.clone()));
     }
     let rest = values.rest();
     if rest > 0 && others.iter().all(|e| e.count == 0 || e.properties.is_empty()) {

@@ -54,14 +54,14 @@ pub(super) struct Materials<'a> {
     fronts: BTreeMap<String, String>,
 }
 
-/// What vertices say to materials.
+/// What a mesh says to materials.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub(super) struct Painted {
-    /// Whether they have colours.
+    /// Whether its vertices have colours.
     pub(super) colors: bool,
     /// Whether they have alphas.
     pub(super) alphas: bool,
-    /// Whether what shines does so to both sides: the mesh is open.
+    /// Whether what shines does so to both sides: it is open.
     pub(super) both_sides: bool,
 }
 
@@ -78,10 +78,12 @@ impl<'a> Materials<'a> {
         desc: &mut SceneDesc,
         warnings: &mut Vec<Warning>,
     ) -> String {
-        if let Some(missing) = index.filter(|&i| i >= self.document.materials.len()) {
-            warnings.push(Warning::new("there is no such material").part(format!("material {missing}")));
-        }
-        let index = index.filter(|&i| i < self.document.materials.len());
+        let (index, missing) = match index {
+            Some(index) if index >= self.document.materials.len() => (None, Some(index)),
+            index => (index, None),
+        };
+        let no_such = |index| Warning::new("there is no such material").part(format!("material {index}"));
+        warnings.extend(missing.map(no_such));
         if let Some(known) = self.names.get(&(index, painted)) {
             return known.clone();
         }
@@ -98,9 +100,7 @@ impl<'a> Materials<'a> {
         self.names.insert((index, painted), name.clone());
         name
     }
-}
 
-impl Materials<'_> {
     /// The name of the front of a material, that is in the scene now.
     pub(super) fn front(&mut self, desc: &mut SceneDesc, of: &str) -> String {
         let front = || {
